@@ -1,0 +1,5 @@
+// include/dmp/bond.hpp - tension and energy of a bond. Contract: bond/concept.hpp.
+#pragma once
+#include <dmp/bond/concept.hpp>       // The contract, and what a law that misses it is told.
+#include <dmp/bond/harmonic.hpp>      // Linear spring, U = (1/2) k (r - r0)^2.
+#include <dmp/bond/kelvin_voigt.hpp>  // Linear spring and dashpot in parallel: a viscoelastic solid.

@@ -1,0 +1,39 @@
+#pragma once
+#include <cmath>
+
+/// Functions of one number that every value type T of a law offers: here for double; for a SIMD pack in core/pack.hpp; a user's
+/// own number type brings overloads in its own namespace. Laws call them unqualified. Branches in a law are `select`, `min`, `max`.
+namespace dmp {
+
+[[nodiscard]] inline double sqrt(double x) noexcept { return std::sqrt(x); }
+[[nodiscard]] inline double exp(double x) noexcept { return std::exp(x); }
+[[nodiscard]] inline double log(double x) noexcept { return std::log(x); }
+[[nodiscard]] inline double abs(double x) noexcept { return std::fabs(x); }
+[[nodiscard]] inline double pow(double x, double n) noexcept { return std::pow(x, n); }
+[[nodiscard]] constexpr double min(double a, double b) noexcept { return b < a ? b : a; }
+[[nodiscard]] constexpr double max(double a, double b) noexcept { return a < b ? b : a; }
+/// holds ? yes : no, for every lane of a value type.
+[[nodiscard]] constexpr double select(bool holds, double yes, double no) noexcept { return holds ? yes : no; }
+
+template <class T>
+[[nodiscard]] constexpr T square(const T& x) noexcept {
+  return x * x;
+}
+template <class T>
+[[nodiscard]] constexpr T cube(const T& x) noexcept {
+  return x * x * x;
+}
+
+/// x^n. A whole exponent (7 of Tait's water, 12 of Lennard-Jones) costs a few products, any other one a `pow`.
+template <class T>
+[[nodiscard]] T power(const T& x, double n) noexcept {
+  if (n == static_cast<double>(static_cast<int>(n)) && n >= 1.0 && n <= 16.0) {
+    T result = x, base = x;
+    for (int left = static_cast<int>(n) - 1; left > 0; left /= 2, base = base * base)
+      if (left % 2 == 1) result = result * base;
+    return result;
+  }
+  return pow(x, n);
+}
+
+}  // namespace dmp

@@ -1,0 +1,29 @@
+#pragma once
+#include <concepts>
+#include <type_traits>
+#include <dmp/core/field.hpp>
+#include <dmp/core/pair.hpp>
+
+namespace dmp::diffusion {
+
+/// Law that smooths the density: flux_ij [kg/m/s] in drho_i/dt += sum_j m_j F flux_ij; flux_ij = -flux_ji for equal densities' sum.
+template <class D>
+concept Diffuses = requires(const D law, const Pair<2, double> pair, const View<2, double, unite<typename D::reads, Fields<field::Mass>>> particle, double h) {
+  { law.flux(pair, particle, particle, h) } -> std::same_as<double>;
+};
+
+/// Contract of a diffusion law: the fields it `reads` of both particles, and `flux` unless it is None.
+template <class D>
+concept DiffusionLaw = std::is_trivially_copyable_v<D> && requires(const D law) {
+  typename D::reads;
+  { validate(law) };
+};
+
+template <class D>
+consteval bool explain_diffusion() {
+  static_assert(requires { typename D::reads; }, "dmp: not a DiffusionLaw: no `using reads = Fields<...>;`, the fields it reads of both particles");
+  static_assert(requires(const D d) { validate(d); }, "dmp: not a DiffusionLaw: no `void validate(const D&)`, which throws ParameterError on bad parameters");
+  return DiffusionLaw<D>;
+}
+
+}  // namespace dmp::diffusion

@@ -1,0 +1,7 @@
+// include/dmp/forcing.hpp - accelerations of place, velocity and time. Contract: forcing/concept.hpp.
+#pragma once
+#include <dmp/forcing/concept.hpp>     // The contract, and what a law that misses it is told.
+#include <dmp/forcing/constant.hpp>    // Gravity, or a steady drive.
+#include <dmp/forcing/sinusoidal.hpp>  // Steady drive with an oscillation on top.
+#include <dmp/forcing/pulsed.hpp>      // Heart beat: short push, weak backward pull.
+#include <dmp/forcing/drag.hpp>        // Linear drag towards rest (LAMMPS `fix viscous`).

@@ -1,0 +1,37 @@
+#pragma once
+#include <concepts>
+
+namespace dmp::integrator {
+
+/// Contract of a time stepper. One step is: begin (kick and drift to the end of the step), forces there, end. Value is a position or
+/// a velocity (a number or a Vector), or a state such as density with its rate.
+///   begin(x, v, a, dt), end(v, a, dt)            motion, a from the last evaluation in begin, from the new one in end
+///   seen(v, a, dt)                               velocity that laws see in the evaluation between the two; a is still the last one
+///   begin_state(s, rate, dt), end_state(s, rate, dt), seen_state(s, rate, dt)    the same for a state with a rate
+///   oscillation_limit                            stable for omega dt < this (undamped oscillator)
+///   damping_limit                                stable for lambda dt < this (dv/dt = -lambda v)
+template <class I>
+concept Integrator = requires(double x, double v, const double a, double dt) {
+  I::begin(x, v, a, dt);
+  I::end(v, a, dt);
+  { I::seen(x, a, dt) } -> std::convertible_to<double>;
+  I::begin_state(x, a, dt);
+  I::end_state(x, a, dt);
+  { I::seen_state(x, a, dt) } -> std::convertible_to<double>;
+  { I::oscillation_limit } -> std::convertible_to<double>;
+  { I::damping_limit } -> std::convertible_to<double>;
+  I::name;
+};
+
+template <class I>
+consteval bool explain_integrator() {
+  static_assert(requires(double x, double v, const double a, double dt) { I::begin(x, v, a, dt); I::end(v, a, dt); I::seen(v, a, dt); },
+                "dmp: not an Integrator: no static `begin(x, v, a, dt)`, `end(v, a, dt)` and `seen(v, a, dt)`");
+  static_assert(requires(double s, const double rate, double dt) { I::begin_state(s, rate, dt); I::end_state(s, rate, dt); I::seen_state(s, rate, dt); },
+                "dmp: not an Integrator: no static `begin_state(s, rate, dt)`, `end_state(s, rate, dt)` and `seen_state(s, rate, dt)`");
+  static_assert(requires { I::oscillation_limit; I::damping_limit; I::name; },
+                "dmp: not an Integrator: no `oscillation_limit`, `damping_limit` and `name`");
+  return Integrator<I>;
+}
+
+}  // namespace dmp::integrator

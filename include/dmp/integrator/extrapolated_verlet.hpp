@@ -1,0 +1,33 @@
+#pragma once
+#include <string_view>
+
+namespace dmp::integrator {
+
+/// Velocity Verlet that shows laws the velocity extrapolated to the end of the step, as the SPH codes of the field do (LAMMPS: fix sph).
+///   begin: v += (dt/2) a,  x += dt v,  rho += (dt/2) drho/dt;   laws see v* = v + (dt/2) a, i.e. v(t) + dt a(t), and rho(t + dt/2)
+///   end:   v += (dt/2) a,              rho += (dt/2) drho/dt
+/// Second order also with velocity-dependent forces; damping is stable for lambda dt < 1, half of what the half-step velocity allows.
+/// M. B. Liu, G. R. Liu, Smoothed Particle Hydrodynamics (World Scientific, 2003), and sheet 06 section 2.4.
+struct ExtrapolatedVerlet {
+  static constexpr std::string_view name = "extrapolated-velocity Verlet";
+  static constexpr double oscillation_limit = 2.0, damping_limit = 1.0;
+
+  template <class Value>
+  static void begin(Value& x, Value& v, const Value& a, double dt) noexcept {
+    v += 0.5 * dt * a;
+    x += dt * v;
+  }
+  template <class Value>
+  [[nodiscard]] static Value seen(const Value& v, const Value& a, double dt) noexcept {
+    return v + 0.5 * dt * a;
+  }
+  template <class Value>
+  static void end(Value& v, const Value& a, double dt) noexcept {
+    v += 0.5 * dt * a;
+  }
+  static void begin_state(double& state, double rate, double dt) noexcept { state += 0.5 * dt * rate; }
+  [[nodiscard]] static double seen_state(double state, double, double) noexcept { return state; }
+  static void end_state(double& state, double rate, double dt) noexcept { state += 0.5 * dt * rate; }
+};
+
+}  // namespace dmp::integrator

@@ -1,0 +1,34 @@
+#pragma once
+#include <concepts>
+#include <type_traits>
+
+namespace dmp::potential {
+
+/// Contract of a short-range pair potential. T is any value type.
+///   force_factor(r^2)    f [N/m]: force on i = f r_ij, > 0 repels; 0 beyond the cut-off
+///   energy(r^2)          U [J], 0 beyond the cut-off
+///   cutoff               [m]
+///   largest_stiffness()  [N/m], U'' at the closest approach that the law is meant for: for the time step
+template <class P>
+concept PairPotential = std::is_trivially_copyable_v<P> && requires(const P law, double x) {
+  { law.force_factor(x) } -> std::same_as<double>;
+  { law.energy(x) } -> std::same_as<double>;
+  { law.cutoff } -> std::convertible_to<double>;
+  { law.largest_stiffness() } -> std::convertible_to<double>;
+  { validate(law) };
+};
+
+template <class P>
+consteval bool explain_pair_potential() {
+  static_assert(requires(const P p, double x) { { p.force_factor(x) } -> std::same_as<double>; },
+                "dmp: not a PairPotential: no `T force_factor(T distance_squared) const` [N/m], force on i = factor r_ij");
+  static_assert(requires(const P p, double x) { { p.energy(x) } -> std::same_as<double>; },
+                "dmp: not a PairPotential: no `T energy(T distance_squared) const` [J]");
+  static_assert(requires(const P p) { { p.cutoff } -> std::convertible_to<double>; }, "dmp: not a PairPotential: no `cutoff` [m]");
+  static_assert(requires(const P p) { { p.largest_stiffness() } -> std::convertible_to<double>; },
+                "dmp: not a PairPotential: no `double largest_stiffness() const` [N/m], which bounds the time step");
+  static_assert(requires(const P p) { validate(p); }, "dmp: not a PairPotential: no `void validate(const P&)`, which throws ParameterError on bad parameters");
+  return PairPotential<P>;
+}
+
+}  // namespace dmp::potential

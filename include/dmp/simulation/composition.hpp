@@ -1,0 +1,159 @@
+#pragma once
+#include <tuple>
+#include <type_traits>
+#include <dmp/core/field.hpp>
+#include <dmp/particles/mobility.hpp>
+#include <dmp/simulation/items.hpp>
+
+/// From the items of a scene to what each group must hold, at compile time.
+namespace dmp::simulation {
+
+template <class T>
+inline constexpr bool is_group = false;
+template <class Tag, class M, int Dim>
+inline constexpr bool is_group<GroupItem<Tag, M, Dim>> = true;
+template <class T>
+inline constexpr bool is_interaction = false;
+template <class A, class B, class... Law>
+inline constexpr bool is_interaction<Interaction<A, B, Law...>> = true;
+template <class T>
+inline constexpr bool is_bonds = false;
+template <class A, class B, class Law, bool S>
+inline constexpr bool is_bonds<Bonds<A, B, Law, S>> = true;
+template <class T>
+inline constexpr bool is_material = false;
+template <class Tags, class... Law>
+inline constexpr bool is_material<Material<Tags, Law...>> = true;
+template <class T>
+inline constexpr bool is_forced = false;
+template <class Tags, class... Law>
+inline constexpr bool is_forced<Forced<Tags, Law...>> = true;
+
+namespace detail {
+
+template <class G, class Item>
+inline constexpr bool joins = false;  // an interaction or a bond item with G at one end
+template <class G, class A, class B, class... Law>
+inline constexpr bool joins<G, Interaction<A, B, Law...>> = std::is_same_v<G, A> || std::is_same_v<G, B>;
+template <class G, class A, class B, class Law, bool S>
+inline constexpr bool joins<G, Bonds<A, B, Law, S>> = std::is_same_v<G, A> || std::is_same_v<G, B>;
+
+template <class G, class Item>
+struct OfItem {
+  using reads = Fields<>;
+  using writes = Fields<>;
+  static constexpr bool uses_velocity = false, substepped = false;
+};
+template <class G, class Item>
+  requires joins<G, Item>
+struct OfItem<G, Item> {
+  using reads = typename Item::reads;
+  using writes = typename Item::writes;
+  static constexpr bool uses_velocity = Item::uses_velocity;
+  static constexpr bool substepped = [] {
+    if constexpr (is_bonds<Item>) return Item::substepped;
+    return false;
+  }();
+};
+
+template <class Law>
+inline constexpr bool is_constant = std::is_same_v<typename Law::reads, Fields<>>;
+
+template <class G, class Item>
+struct OfMaterial {
+  using reads = Fields<>;
+  using constants = Fields<>;
+  using derived = Fields<>;
+};
+template <class G, class... Tag, class... Law>
+  requires(Material<std::tuple<Tag...>, Law...>::template concerns<G>)
+struct OfMaterial<G, Material<std::tuple<Tag...>, Law...>> {
+  using reads = unite<typename Law::reads...>;
+  using constants = unite<std::conditional_t<is_constant<Law>, typename Law::writes, Fields<>>...>;
+  using derived = unite<std::conditional_t<is_constant<Law>, Fields<>, typename Law::writes>...>;
+};
+
+template <class Field>
+inline constexpr bool is_rate = requires { typename Field::integrates; };
+template <class Field>
+using rate_only = std::conditional_t<is_rate<Field>, Fields<Field>, Fields<>>;
+template <class List>
+struct Rates;
+template <class... Field>
+struct Rates<Fields<Field...>> {
+  using type = unite<rate_only<Field>...>;
+};
+
+template <class Field>
+inline constexpr bool may_be_stored = !std::is_same_v<Field, field::PressureTerm> && !std::is_same_v<Field, field::DynamicViscosity>;
+template <class List>
+inline constexpr bool all_stored = true;
+template <class... Field>
+inline constexpr bool all_stored<Fields<Field...>> = (may_be_stored<Field> && ...);
+
+}  // namespace detail
+
+/// The sub-step acceleration of groups with sub-stepped bonds.
+struct FastAcceleration {
+  static constexpr std::string_view name = "fast_acceleration", unit = "m/s^2";
+  static constexpr bool is_vector = true;
+};
+/// Where the particles of a driven group started.
+struct StartPosition {
+  static constexpr std::string_view name = "start_position", unit = "m";
+  static constexpr bool is_vector = true;
+};
+
+/// What one group of a scene holds: sets of fields and yes-or-no answers, without the items they come from (which keeps names short).
+template <class Columns, class State, class Rates, class Record, class Constants, class Derived, class Writes, bool HasPairs, bool HasBonds,
+          bool HasSubsteps>
+struct Layout {
+  using columns = Columns;      ///< stored from step to step
+  using state = State;          ///< the columns that material and pair laws read, beside position and velocity
+  using rates = Rates;          ///< rates of change of the state
+  using record = Record;        ///< what pair and bond laws read, packed anew each step
+  using constants = Constants;  ///< one value for the whole group
+  using writes = Writes;        ///< what pair and bond laws sum
+  using seen = unite<Record, Constants>;                                                            ///< what laws see of a particle
+  using prepared = unite<Fields<field::Position, field::Velocity>, State, Derived, Constants>;  ///< what material laws work on
+  static constexpr bool has_pairs = HasPairs, has_bonds = HasBonds, has_substeps = HasSubsteps, has_records = HasPairs || HasBonds;
+};
+
+namespace detail {
+
+template <class G, class... Item>
+struct Compose {
+  using Tag = typename G::Tag;
+  using Mobility = typename G::Mobility;
+  static constexpr bool has_pairs = ((is_interaction<Item> && joins<Tag, Item>) || ...);
+  static constexpr bool has_bonds = ((is_bonds<Item> && joins<Tag, Item>) || ...);
+  static constexpr bool has_substeps = particles::is_mobile<Mobility> && (OfItem<Tag, Item>::substepped || ...);
+  template <bool Wanted, class... Field>
+  using only_if = std::conditional_t<Wanted, Fields<Field...>, Fields<>>;
+
+  using reads = unite<typename OfItem<Tag, Item>::reads...>;
+  using writes = unite<typename OfItem<Tag, Item>::writes...>;
+  using constants = unite<Fields<field::Mass>, typename OfMaterial<Tag, Item>::constants...>;
+  using derived = unite<typename OfMaterial<Tag, Item>::derived...>;
+  using material_reads = unite<typename OfMaterial<Tag, Item>::reads...>;
+  static_assert(all_stored<subtract<reads, unite<constants, derived>>>,
+                "dmp: a pair law reads the pressure term or the viscosity of a group, but no material<Group>(...) of this scene sets it");
+
+  using state = subtract<unite<reads, material_reads>, unite<constants, derived, Fields<field::Position, field::Velocity>>>;
+  using rates = std::conditional_t<Mobility::evolves, typename Rates<writes>::type, Fields<>>;
+  using columns = unite<Fields<field::Position>, only_if<particles::is_mobile<Mobility>, field::Velocity, field::Acceleration>,
+                        only_if<particles::is_driven<Mobility>, StartPosition, field::Velocity>, only_if<has_substeps, FastAcceleration>, state, rates>;
+  using record = std::conditional_t<has_pairs || has_bonds,
+                                    unite<Fields<field::Position>, only_if<(OfItem<Tag, Item>::uses_velocity || ...), field::Velocity>,
+                                          subtract<reads, constants>>,
+                                    Fields<>>;
+  using type = Layout<columns, state, rates, record, constants, derived, writes, has_pairs, has_bonds, has_substeps>;
+};
+
+}  // namespace detail
+
+/// The layout of group G (a GroupItem) in a scene made of `Item...`.
+template <class G, class... Item>
+using Composition = typename detail::Compose<G, Item...>::type;
+
+}  // namespace dmp::simulation

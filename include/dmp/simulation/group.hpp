@@ -1,0 +1,118 @@
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+#include <dmp/core/field.hpp>
+#include <dmp/core/threads.hpp>
+#include <dmp/neighbours/cell_grid.hpp>
+#include <dmp/particles/columns.hpp>
+#include <dmp/particles/ghosts.hpp>
+#include <dmp/particles/records.hpp>
+#include <dmp/simulation/composition.hpp>
+
+namespace dmp::simulation {
+
+namespace detail {
+/// Copies the fields of `List` from one view to another.
+template <class... Field>
+void copy_fields(Fields<Field...>, auto& to, const auto& from) noexcept {
+  ((Field::of(to) = Field::of(from)), ...);
+}
+template <class T, class... Field>
+void spread_fields(Fields<Field...>, auto& to, const auto& from) noexcept {
+  ((Field::of(to) = T(Field::of(from))), ...);
+}
+template <int Dim>
+[[nodiscard]] Components<Dim, double> components(const Vector<Dim>& v) noexcept {
+  Components<Dim, double> result;
+  for (int d = 0; d < Dim; ++d) result[d] = v[d];
+  return result;
+}
+template <int Dim>
+[[nodiscard]] Vector<Dim> vector(const Components<Dim, double>& c) noexcept {
+  Vector<Dim> result;
+  for (int d = 0; d < Dim; ++d) result[d] = c[d];
+  return result;
+}
+}  // namespace detail
+
+/// One group of a running scene: its columns, its records with their ghosts, and the cell grid in which others look for it.
+template <class Item, class Layout_>
+class Group {
+ public:
+  using Tag = typename Item::Tag;
+  using Mobility = typename Item::Mobility;
+  using Layout = Layout_;
+  static constexpr int Dim = Item::Dim;
+  using Columns = particles::Columns<Dim, typename Layout::columns>;
+  using Records = particles::Records<Dim, typename Layout::record>;
+
+  explicit Group(const Item& item) : name(item.name), mobility(item.mobility), mass(item.mass), spacing(item.points.spacing) {
+    columns.resize(item.points.positions.size());
+    positions() = item.points.positions;
+    if constexpr (particles::is_driven<Mobility>) columns.template get<StartPosition>() = positions();
+    id.resize(positions().size());
+    for (std::size_t k = 0; k < id.size(); ++k) id[k] = static_cast<std::uint32_t>(k);
+    constants.mass = mass;
+    at_list_build = positions();
+    ranges = Ranges(size());
+  }
+
+  [[nodiscard]] std::size_t size() const noexcept { return id.size(); }
+  template <class Field>
+  [[nodiscard]] auto& get() noexcept {
+    static_assert(contains<Field, typename Layout::columns>, "dmp: this group has no such column: no law of the scene needs it");
+    return columns.template get<Field>();
+  }
+  template <class Field>
+  [[nodiscard]] const auto& get() const noexcept {
+    static_assert(contains<Field, typename Layout::columns>, "dmp: this group has no such column: no law of the scene needs it");
+    return columns.template get<Field>();
+  }
+  [[nodiscard]] auto& positions() noexcept { return columns.template get<field::Position>(); }
+  [[nodiscard]] const auto& positions() const noexcept { return columns.template get<field::Position>(); }
+
+  /// Sets a column from a function of the particle's position.
+  template <class Field, class Function>
+  void set(Function&& function) {
+    auto& values = get<Field>();
+    for (std::size_t k = 0; k < size(); ++k) values[k] = function(std::as_const(positions()[k]));
+  }
+
+  /// View of record `index`, with the constants of the group, in all lanes.
+  template <class T>
+  [[nodiscard, gnu::always_inline]] auto spread(std::size_t index) const noexcept {
+    View<Dim, T, typename Layout::seen> view;
+    detail::copy_fields(typename Layout::record{}, view, records.template spread<T>(index));
+    detail::spread_fields<T>(typename Layout::constants{}, view, constants);
+    return view;
+  }
+  /// Views of the records index[0 .. width - 1], with the constants of the group.
+  [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
+    using Lanes = Pack<double, Records::width>;
+    View<Dim, Lanes, typename Layout::seen> view;
+    detail::copy_fields(typename Layout::record{}, view, records.gather(index));
+    detail::spread_fields<Lanes>(typename Layout::constants{}, view, constants);
+    return view;
+  }
+
+  std::string name;
+  Mobility mobility;
+  double mass;     ///< of one particle [kg]
+  double spacing;  ///< nearest distance at the start [m], 0 unknown
+  Columns columns;
+  std::vector<std::uint32_t> id;
+  View<Dim, double, typename Layout::constants> constants;
+  Records records;
+  particles::Ghosts<Dim> ghosts;
+  neighbours::CellGrid<Dim> grid;
+  std::vector<Vector<Dim>> at_list_build;  ///< positions when the neighbour lists were built
+  Ranges ranges;                           ///< division of the particles among the threads
+  bool may_be_sorted = true;               ///< bonds hold rows, so bonded groups keep their order
+};
+
+}  // namespace dmp::simulation

@@ -1,0 +1,129 @@
+#pragma once
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+#include <dmp/bond/concept.hpp>
+#include <dmp/core/field.hpp>
+#include <dmp/core/require.hpp>
+#include <dmp/forcing/concept.hpp>
+#include <dmp/geometry/fill.hpp>
+#include <dmp/neighbours/bond_list.hpp>
+#include <dmp/particles/mobility.hpp>
+#include <dmp/sweep/pair_law.hpp>
+#include <dmp/sweep/particle_law.hpp>
+
+/// What a scene is made of. Groups are named by types of the user's: `struct Water {};`. Everything that two groups do to each other is
+/// declared by an item; what is not declared does not exist in the program.
+namespace dmp::simulation {
+
+/// Particles of one kind.
+template <class Tag_, class Mobility_, int Dim_>
+struct GroupItem {
+  using Tag = Tag_;
+  using Mobility = Mobility_;
+  static constexpr int Dim = Dim_;
+  std::string name;
+  Mobility mobility;
+  geometry::Points<Dim> points;
+  double mass;  ///< of one particle [kg]
+};
+/// group<Water>("water", Mobile{}, fill(...), mass): `mass` [kg] of one particle (kg per metre of depth in 2D).
+template <class Tag, class Mobility, int Dim>
+[[nodiscard]] GroupItem<Tag, Mobility, Dim> group(std::string name, Mobility mobility, geometry::Points<Dim> points, double mass) {
+  require_positive(("group " + name + ": mass of a particle").c_str(), mass, "kg");
+  if (points.positions.empty()) throw ParameterError("group " + name + ": at least one particle is needed, got none");
+  return {std::move(name), std::move(mobility), std::move(points), mass};
+}
+
+/// Pair laws between two groups, or within one. Each acts on both (action = reaction), unless one of them is frozen.
+template <class A_, class B_, class... Law>
+struct Interaction {
+  using A = A_;
+  using B = B_;
+  using reads = unite<typename Law::reads...>;
+  using writes = unite<typename Law::writes...>;
+  static constexpr bool uses_velocity = (Law::uses_velocity || ...);
+  std::tuple<Law...> laws;
+  int excluded_reach = 0;
+
+  /// Leaves out pairs that are joined by up to `reach` bonds (LAMMPS' default special_bonds is 3).
+  [[nodiscard]] Interaction excluding_bonded(int reach) && {
+    require(reach >= 1, "interaction: excluding_bonded must be >= 1 bond", reach);
+    excluded_reach = reach;
+    return std::move(*this);
+  }
+  [[nodiscard]] double cutoff() const {
+    return std::apply([](const auto&... law) { return std::max({law.cutoff()...}); }, laws);
+  }
+};
+template <class A, class B, class... Law>
+[[nodiscard]] auto interaction(const Law&... law) {
+  static_assert(sizeof...(Law) > 0, "dmp: interaction<A, B>(...) needs at least one pair law");
+  (validate(law), ...);
+  return Interaction<A, B, decltype(sweep::as_pair_law(law))...>{{sweep::as_pair_law(law)...}};
+}
+
+/// Bonds within one group, or between two.
+template <class A_, class B_, class Law, bool Substepped>
+struct Bonds {
+  using A = A_;
+  using B = B_;
+  using reads = Fields<>;
+  using writes = Fields<field::Force>;
+  static constexpr bool uses_velocity = bond::UsesVelocity<Law>;
+  static constexpr bool substepped = Substepped;
+  Law law;
+  std::vector<neighbours::Bond> bonds;
+  int substeps = 0;
+};
+template <class A, class B, class Law>
+[[nodiscard]] auto bonds(const Law& law, std::vector<neighbours::Bond> list) {
+  static_assert(bond::explain_bond_potential<Law>());
+  validate(law);
+  return Bonds<A, B, Law, false>{law, std::move(list)};
+}
+/// Bonds too stiff for the step of the scene: they are integrated in sub-steps, all other forces being kicks at the ends of the step
+/// (r-RESPA; M. Tuckerman, B. J. Berne, G. J. Martyna, J. Chem. Phys. 97 (1992) 1990, doi:10.1063/1.463137). Their bound then no longer limits
+/// the step of the scene. `substeps` 0: as many as their own bound asks for.
+template <class A, class B, class Law>
+[[nodiscard]] auto substepped_bonds(const Law& law, std::vector<neighbours::Bond> list, int substeps = 0) {
+  static_assert(bond::explain_bond_potential<Law>());
+  validate(law);
+  require(substeps >= 0, "substepped_bonds: substeps must be >= 0 (0: as many as stability asks for)", substeps);
+  return Bonds<A, B, Law, true>{law, std::move(list), substeps};
+}
+
+template <class Tags, class... Law>
+struct Material;
+/// Properties of the particles of some groups: equation of state, viscosity, ...
+template <class... Tag, class... Law>
+struct Material<std::tuple<Tag...>, Law...> {
+  template <class G>
+  static constexpr bool concerns = (std::is_same_v<G, Tag> || ...);
+  std::tuple<Law...> laws;
+};
+template <class... Tag, class... Law>
+[[nodiscard]] auto material(const Law&... law) {
+  static_assert(sizeof...(Tag) > 0, "dmp: material<Groups...>(laws...) names no group");
+  (validate(law), ...);
+  return Material<std::tuple<Tag...>, decltype(sweep::as_particle_law(law))...>{{sweep::as_particle_law(law)...}};
+}
+
+template <class Tags, class... Law>
+struct Forced;
+/// Accelerations of place, velocity and time on some groups.
+template <class... Tag, class... Law>
+struct Forced<std::tuple<Tag...>, Law...> {
+  template <class G>
+  static constexpr bool concerns = (std::is_same_v<G, Tag> || ...);
+  std::tuple<Law...> laws;
+};
+template <class... Tag, class... Law>
+[[nodiscard]] auto forced_by(const Law&... law) {
+  static_assert(sizeof...(Tag) > 0, "dmp: forced_by<Groups...>(laws...) names no group");
+  (validate(law), ...);
+  return Forced<std::tuple<Tag...>, Law...>{{law...}};
+}
+
+}  // namespace dmp::simulation

@@ -1,0 +1,69 @@
+#pragma once
+#include <cmath>
+#include <dmp/core/field.hpp>
+#include <dmp/diffusion/concept.hpp>
+#include <dmp/diffusion/none.hpp>
+#include <dmp/kernel/concept.hpp>
+#include <dmp/sweep/step_limit.hpp>
+#include <dmp/tensile/concept.hpp>
+#include <dmp/tensile/none.hpp>
+#include <dmp/viscosity/concept.hpp>
+#include <dmp/viscosity/none.hpp>
+
+namespace dmp::sph {
+
+/// Weakly compressible SPH: continuity and momentum of a barotropic fluid, fused in one pass over the pairs.
+///   drho_i/dt =  sum_j m_j F (r_ij . v_ij)                                                      [kg/m^3/s]
+///   dv_i/dt   = -sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2 + Pi_ij + R_ij) F r_ij + sum_j m_j kappa_ij F v_ij  [m/s^2]
+/// F = (1/r) dW/dr <= 0: approaching particles gain density, p > 0 repels. Pi_ij or kappa_ij is the viscosity law, R_ij the tensile
+/// correction; a diffusion law adds sum_j m_j F flux_ij to the density. What is None is not there.
+/// J. J. Monaghan, Rep. Prog. Phys. 68 (2005) 1703-1759, doi:10.1088/0034-4885/68/8/R01, eqs. 2.17 and 3.8.
+template <class K, class V = viscosity::None, class D = diffusion::None, class C = tensile::None>
+struct WeaklyCompressible {
+  static_assert(kernel::explain_kernel<K>() && viscosity::explain_viscosity<V>() && diffusion::explain_diffusion<D>() &&
+                tensile::explain_tensile_correction<C>());
+  using reads = unite<Fields<field::Density, field::PressureTerm>, typename V::reads, typename D::reads, typename C::reads>;
+  using writes = Fields<field::Acceleration, field::DensityRate>;
+  static constexpr bool uses_velocity = true;
+  static constexpr int dimension = K::dimension;
+
+  K kernel;
+  [[no_unique_address]] V viscosity{};
+  [[no_unique_address]] D diffusion{};
+  [[no_unique_address]] C tensile{};
+
+  [[nodiscard]] double cutoff() const noexcept { return kernel.support_radius; }
+
+  template <class Pair, class I, class J, class Sums>
+  void add(const Pair& pair, const I& i, const J& j, Sums& sums) const noexcept {
+    const double h = kernel.support_radius;
+    const auto m_F = j.mass * kernel.radial_factor(pair.distance);
+    auto pressure = i.pressure_term + j.pressure_term;
+    if constexpr (viscosity::ActsAlongSeparation<V>) pressure = pressure + viscosity.along_separation(pair, i, j, h);
+    if constexpr (tensile::Corrects<C>) pressure = pressure + tensile.correction(pair, i, j, kernel);
+    sums.acceleration -= (m_F * pressure) * pair.separation;
+    if constexpr (viscosity::ActsAlongVelocity<V>) sums.acceleration += (m_F * viscosity.along_velocity(pair, i, j)) * pair.relative_velocity;
+    sums.density_rate += m_F * pair.approach;
+    if constexpr (diffusion::Diffuses<D>) sums.density_rate += m_F * diffusion.flux(pair, i, j, h);
+  }
+
+  /// Sound must not cross a quarter of the support in a step (Courant), nor a body at rest fall through a quarter of it; and the viscosity
+  /// law's damping must stay within what the integrator stands.
+  void step_limits(const sweep::StepState& state, sweep::StepLimit& limit) const {
+    const double h = kernel.support_radius;
+    limit.require_below(0.25 * h / (state.sound_speed + state.speed), "sound");
+    if (state.acceleration > 0.0) limit.resolve(0.25 * std::sqrt(h / state.acceleration), "acceleration");
+    const double rate = viscosity.damping_rate(state.kinematic_viscosity, h, kernel::radial_factor_integral(kernel), K::dimension);
+    if (rate > 0.0) limit.require_below(state.damping_limit / rate, "viscosity");
+  }
+};
+
+template <class K, class V, class D, class C>
+void validate(const WeaklyCompressible<K, V, D, C>& law) {
+  validate(law.kernel);
+  validate(law.viscosity);
+  validate(law.diffusion);
+  validate(law.tensile);
+}
+
+}  // namespace dmp::sph

@@ -1,0 +1,74 @@
+#pragma once
+#include <cmath>
+#include <concepts>
+#include <type_traits>
+#include <dmp/core/field.hpp>
+#include <dmp/core/pair.hpp>
+#include <dmp/potential/concept.hpp>
+#include <dmp/sweep/step_limit.hpp>
+
+namespace dmp::sweep {
+
+/// Contract of a pair law, what a gather sweep sums over the neighbours of a particle.
+///   using reads  = Fields<...>      of both particles; their mass is always there
+///   using writes = Fields<...>      rates of change: Acceleration, Force, DensityRate, ...
+///   uses_velocity                   whether relative_velocity and approach are needed
+///   cutoff()                        [m]; the law is exactly 0 beyond it
+///   add(pair, i, j, sums)           adds what j does to i
+///   step_limits(state, limit)       states its bounds of the time step
+template <class L>
+concept PairLaw = std::is_trivially_copyable_v<L> && requires(const L law, const StepState state, StepLimit limit) {
+  typename L::reads;
+  typename L::writes;
+  { L::uses_velocity } -> std::convertible_to<bool>;
+  { law.cutoff() } -> std::convertible_to<double>;
+  law.step_limits(state, limit);
+  { validate(law) };
+};
+
+template <class L>
+consteval bool explain_pair_law() {
+  static_assert(requires { typename L::reads; typename L::writes; L::uses_velocity; },
+                "dmp: not a PairLaw: it needs `using reads = Fields<...>;`, `using writes = Fields<...>;` and `static constexpr bool uses_velocity`");
+  static_assert(requires(const L law) { { law.cutoff() } -> std::convertible_to<double>; }, "dmp: not a PairLaw: no `double cutoff() const` [m]");
+  static_assert(requires(const L law, const StepState state, StepLimit limit) { law.step_limits(state, limit); },
+                "dmp: not a PairLaw: no `void step_limits(const StepState&, StepLimit&) const`, its bounds of the time step");
+  static_assert(requires(const L law) { validate(law); }, "dmp: not a PairLaw: no `void validate(const L&)`, which throws ParameterError on bad parameters");
+  return PairLaw<L>;
+}
+
+/// A pair potential as a pair law: force f(r^2) r_ij [N] on i.
+template <class P>
+struct PotentialForce {
+  using reads = Fields<>;
+  using writes = Fields<field::Force>;
+  static constexpr bool uses_velocity = false;
+  P potential;
+
+  [[nodiscard]] double cutoff() const noexcept { return potential.cutoff; }
+  template <class Pair, class I, class J, class Sums>
+  void add(const Pair& pair, const I&, const J&, Sums& sums) const noexcept {
+    sums.force += potential.force_factor(pair.distance_squared) * pair.separation;
+  }
+  /// omega dt < limit for a particle held by contacts on all sides: omega^2 <= 2 * 6 U''/m (Gershgorin).
+  void step_limits(const StepState& state, StepLimit& limit) const {
+    limit.require_below(state.oscillation_limit / std::sqrt(12.0 * potential.largest_stiffness() / state.mass), "pair potential");
+  }
+};
+template <class P>
+void validate(const PotentialForce<P>& law) {
+  validate(law.potential);
+}
+
+/// What an interaction holds for a law that its user named.
+template <class L>
+[[nodiscard]] constexpr auto as_pair_law(const L& law) {
+  if constexpr (potential::PairPotential<L>) {
+    return PotentialForce<L>{law};
+  } else {
+    static_assert(explain_pair_law<L>());
+    return law;
+  }
+}
+
+}  // namespace dmp::sweep

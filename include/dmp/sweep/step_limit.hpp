@@ -1,0 +1,42 @@
+#pragma once
+#include <limits>
+#include <string>
+
+namespace dmp::sweep {
+
+/// What a law needs to state its own stability bound: extremes over the particles it acts on, and what the integrator stands.
+struct StepState {
+  double speed = 0.0;                ///< largest |v| [m/s]
+  double acceleration = 0.0;         ///< largest |a| [m/s^2]
+  double sound_speed = 0.0;          ///< largest c [m/s]
+  double kinematic_viscosity = 0.0;  ///< largest mu/rho [m^2/s]
+  double mass = std::numeric_limits<double>::infinity();  ///< smallest particle mass [kg]; infinite where nothing moves
+  double oscillation_limit = 2.0;    ///< stable for omega dt < this
+  double damping_limit = 1.0;        ///< stable for lambda dt < this
+};
+
+/// The smallest bound found so far, and the law that set it.
+struct StepLimit {
+  double time_step = std::numeric_limits<double>::infinity();  ///< [s], stability and resolution
+  std::string bound_by = "nothing";
+  double stable_time_step = std::numeric_limits<double>::infinity();  ///< [s], stability alone: a larger step is refused
+  std::string stability_bound_by = "nothing";
+
+  /// Beyond `bound` the law is unstable.
+  void require_below(double bound, const std::string& law) {
+    resolve(bound, law);
+    if (bound < stable_time_step) {
+      stable_time_step = bound;
+      stability_bound_by = law;
+    }
+  }
+  /// Beyond `bound` the law is badly resolved, though not unstable: steps chosen by the scene respect it, a user's own may exceed it.
+  void resolve(double bound, const std::string& law) {
+    if (bound < time_step) {
+      time_step = bound;
+      bound_by = law;
+    }
+  }
+};
+
+}  // namespace dmp::sweep
