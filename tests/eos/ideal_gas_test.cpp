@@ -22,6 +22,8 @@ TEST_CASE("a gas of molecules without energy has neither pressure nor sound") {
 }
 
 TEST_CASE("the ideal gas refuses a heat capacity ratio of 1 and less") {
-  CHECK(test::complaint_about(eos::IdealGas{.heat_capacity_ratio = 1.0}) == "eos::IdealGas: heat_capacity_ratio must be > 1 and < 1000, got 1");
-  CHECK(test::complaint_about(eos::IdealGas{.heat_capacity_ratio = NAN}) == "eos::IdealGas: heat_capacity_ratio must be > 1 and < 1000, got nan");
+  CHECK(test::complaint_about(eos::IdealGas{.heat_capacity_ratio = 1.0}) ==
+        "eos::IdealGas: heat_capacity_ratio must be > 1 and < 1000, got 1");
+  CHECK(test::complaint_about(eos::IdealGas{.heat_capacity_ratio = NAN}) ==
+        "eos::IdealGas: heat_capacity_ratio must be > 1 and < 1000, got nan");
 }

@@ -1,10 +1,10 @@
 #pragma once
 #include <cmath>
+#include "support/compare.hpp"
+#include "support/dual.hpp"
 #include <doctest/doctest.h>
 #include <dmp/core/pack.hpp>
 #include <dmp/eos/concept.hpp>
-#include "support/compare.hpp"
-#include "support/dual.hpp"
 
 /// What every p(rho) must obey. `background_pressure` is the pressure that it states at rho0.
 template <class E>

@@ -26,8 +26,10 @@ TEST_CASE("Tait's liquid resists compression, and pulls when stretched") {
 }
 
 TEST_CASE("Tait refuses parameters that are no liquid") {
-  CHECK(test::complaint_about(eos::Tait{.rest_density = 0.0, .sound_speed_0 = 1.0}) == "eos::Tait: rest_density must be finite and > 0 kg/m^3, got 0");
-  CHECK(test::complaint_about(eos::Tait{.rest_density = 1.0, .sound_speed_0 = -16.0}) == "eos::Tait: sound_speed_0 must be finite and > 0 m/s, got -16");
+  CHECK(test::complaint_about(eos::Tait{.rest_density = 0.0, .sound_speed_0 = 1.0}) ==
+        "eos::Tait: rest_density must be finite and > 0 kg/m^3, got 0");
+  CHECK(test::complaint_about(eos::Tait{.rest_density = 1.0, .sound_speed_0 = -16.0}) ==
+        "eos::Tait: sound_speed_0 must be finite and > 0 m/s, got -16");
   CHECK(test::complaint_about(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0, .exponent = 0.5}) ==
         "eos::Tait: exponent must be >= 1 and < 1000, got 0.5");
   CHECK(test::complaint_about(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0, .background_pressure = NAN}) ==

@@ -14,7 +14,8 @@ namespace {
 
 template <int Dim>
 std::vector<Vector<Dim>> sorted(std::vector<Vector<Dim>> x) {
-  std::sort(x.begin(), x.end(), [](const auto& a, const auto& b) { return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end()); });
+  const auto before = [](const auto& a, const auto& b) { return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end()); };
+  std::sort(x.begin(), x.end(), before);
   return x;
 }
 
@@ -56,7 +57,8 @@ TEST_CASE("fill: a box of whole cells holds exactly its share of points for a th
 }
 
 TEST_CASE("fill: the order is fixed, x running fastest, and spacing and volume are those of the lattice") {
-  const auto points = fill(Cubic<3>{.spacing = 1.0}, {.lower = {0, 0, 0}, .upper = {3, 2, 2}}, Ball<3>{.centre = {1.5, 1, 1}, .radius = 10.0});
+  const Ball<3> around_all{.centre = {1.5, 1, 1}, .radius = 10.0};
+  const auto points = fill(Cubic<3>{.spacing = 1.0}, {.lower = {0, 0, 0}, .upper = {3, 2, 2}}, around_all);
   REQUIRE(points.positions.size() == 12);
   const auto rank = [](const Vector<3>& x) { return std::tuple(x[2], x[1], x[0]); };
   CHECK(std::is_sorted(points.positions.begin(), points.positions.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); }));
@@ -67,20 +69,24 @@ TEST_CASE("fill: the order is fixed, x running fastest, and spacing and volume a
 TEST_CASE("fill: what cannot be filled is refused: nothing inside, no bounds, far too many or far too remote cells, bad parameters") {
   const Cuboid<2> unit{.lower = {0, 0}, .upper = {1, 1}};
   const Ball<2> ball{.centre = {0.5, 0.5}, .radius = 0.3};
-  const auto fill_with = [](const auto& lattice, const Cuboid<2>& within, const auto& shape) { static_cast<void>(fill(lattice, within, shape)); };
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto fill_with = [](const Cubic<2>& lattice, const Cuboid<2>& within, const Ball<2>& shape) {
+    static_cast<void>(fill(lattice, within, shape));
+  };
   CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.1}, unit, Ball<2>{.centre = {3, 3}, .radius = 0.5}),
-                       "geometry::fill: no lattice point lies inside the shape, got a lattice with points 0.1 m apart and a bounding cuboid from "
-                       "(0, 0) to (1, 1) m",
+                       "geometry::fill: no lattice point lies inside the shape, got a lattice with points 0.1 m apart "
+                       "and a bounding cuboid from (0, 0) to (1, 1) m",
                        ParameterError);
-  CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.1}, {.lower = {0, 0}, .upper = {std::numeric_limits<double>::infinity(), 1}}, ball),
+  CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.1}, {.lower = {0, 0}, .upper = {infinity, 1}}, ball),
                        "geometry::fill: upper bound of the cuboid must be finite [m], got inf", ParameterError);
-  CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.1}, {.lower = {-std::numeric_limits<double>::infinity(), 0}, .upper = {1, 1}}, ball),
+  CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.1}, {.lower = {-infinity, 0}, .upper = {1, 1}}, ball),
                        "geometry::fill: lower bound of the cuboid must be finite [m], got -inf", ParameterError);
   CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 9.5367431640625e-07}, unit, ball),  // 2^-20
                        "geometry::fill: the bounding cuboid must hold at most 2^32 lattice cells, got 1099513724929", ParameterError);
   CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.5}, {.lower = {1e300, 0}, .upper = {2e300, 1}}, ball),
                        "geometry::fill: the bounding cuboid must lie within 2^52 cells of the lattice's origin, got 4e+300", ParameterError);
-  CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = -1.0}, unit, ball), "geometry::Cubic: spacing must be finite and > 0 m, got -1", ParameterError);
+  CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = -1.0}, unit, ball), "geometry::Cubic: spacing must be finite and > 0 m, got -1",
+                       ParameterError);
   CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.1}, {.lower = {0, 1}, .upper = {1, 0}}, ball),
                        "geometry::Cuboid: upper must be > lower in direction y, got lower 1 and upper 0 m", ParameterError);
   CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.1}, unit, Ball<2>{.centre = {0, 0}, .radius = 0.0}),
@@ -101,10 +107,11 @@ TEST_CASE("line: both ends are included exactly, the points between lie evenly")
 }
 
 TEST_CASE("line: a length that is no whole number of spacings is refused, to a millionth of a spacing") {
-  const auto make = [](double length, double spacing) { return line<2>(Vector<2>{0, 0}, Vector<2>{0, length}, spacing).positions.size(); };
+  const auto make = [](double length, double spacing) { return line<2>({0, 0}, {0, length}, spacing).positions.size(); };
   CHECK(make(1.0 + 0.9e-7, 0.1) == 11);
   CHECK_THROWS_WITH_AS(make(1.0 + 1.1e-7, 0.1),
-                       "geometry::line: the length must be a whole number of spacings, from 1 to 2^32, got length 1.00000011 m and spacing 0.1 m",
+                       "geometry::line: the length must be a whole number of spacings, from 1 to 2^32, "
+                       "got length 1.00000011 m and spacing 0.1 m",
                        ParameterError);
   CHECK_THROWS_WITH_AS(make(0.0, 0.1),
                        "geometry::line: the length must be a whole number of spacings, from 1 to 2^32, got length 0 m and spacing 0.1 m",

@@ -17,11 +17,13 @@ namespace {
 /// Distance from the point nearest to `centre` to its nearest neighbour, and how many points lie that near, by looking at all.
 template <int Dim>
 std::pair<double, int> nearest_neighbours(const std::vector<Vector<Dim>>& x, const Vector<Dim>& centre) {
-  const auto middle = std::min_element(x.begin(), x.end(), [&](const auto& a, const auto& b) { return (a - centre).norm() < (b - centre).norm(); });
+  const auto nearer = [&](const auto& a, const auto& b) { return (a - centre).norm() < (b - centre).norm(); };
+  const auto middle = std::min_element(x.begin(), x.end(), nearer);
   double nearest = 1e300;
   for (const auto& other : x)
     if (&other != &*middle) nearest = std::min(nearest, (other - *middle).norm());
-  const auto count = std::count_if(x.begin(), x.end(), [&](const auto& other) { return (other - *middle).norm() < nearest * (1.0 + 1e-9); });
+  const auto near = [&](const auto& other) { return (other - *middle).norm() < nearest * (1.0 + 1e-9); };
+  const auto count = std::count_if(x.begin(), x.end(), near);
   return {nearest, static_cast<int>(count) - 1};
 }
 

@@ -65,7 +65,8 @@ TEST_CASE("ball: counted lattice points give 2R, pi R^2 and 4/3 pi R^3, the erro
     double sum = 0.0;
     for (int n = 0; n < 8; ++n) {
       const double radius = 0.38 + 0.0137 * n;
-      const double volume = Dim == 1 ? 2.0 * radius : Dim == 2 ? std::numbers::pi * dmp::square(radius) : 4.0 / 3.0 * std::numbers::pi * dmp::cube(radius);
+      const double disc = std::numbers::pi * dmp::square(radius);
+      const double volume = Dim == 1 ? 2.0 * radius : Dim == 2 ? disc : 4.0 / 3.0 * disc * radius;
       sum += dmp::square(counting_error<Dim>(Ball<Dim>{.centre = Vector<Dim>::Zero(), .radius = radius}, within, volume, spacing));
     }
     return std::sqrt(sum / 8.0);
@@ -76,9 +77,8 @@ TEST_CASE("ball: counted lattice points give 2R, pi R^2 and 4/3 pi R^3, the erro
     const double order = std::log(first / second) / std::log(4.0);
     CAPTURE(Dim);
     CAPTURE(order);
-    MESSAGE(Dim << ' ' << first << ' ' << second << ' ' << order);
     CHECK(first < largest_error);
-    CHECK(std::abs(order - 0.5 * (Dim + 1)) < 0.2);
+    CHECK(std::abs(order - 0.5 * (Dim + 1)) < 0.15);
   };
   check(std::integral_constant<int, 1>{}, 0.05, 0.05);
   check(std::integral_constant<int, 2>{}, 0.05, 0.02);
@@ -173,7 +173,8 @@ TEST_CASE("shapes: bad parameters are refused by name, also inside combinations"
         "geometry::Cuboid: upper must be > lower in direction x, got lower 0 and upper -1 m");
   CHECK(test::complaint_about(HalfSpace<2>{.point = {0, 0}, .outward_normal = {0, 0}}) ==
         "geometry::HalfSpace: outward_normal must be a finite vector other than zero, got (0, 0)");
-  CHECK(test::complaint_about(HalfSpace<2>{.point = {nan, 0}, .outward_normal = {0, 1}}) == "geometry::HalfSpace: point must be finite [m], got nan");
+  CHECK(test::complaint_about(HalfSpace<2>{.point = {nan, 0}, .outward_normal = {0, 1}}) ==
+        "geometry::HalfSpace: point must be finite [m], got nan");
   CHECK(test::complaint_about(Cylinder{.base_centre = {0, 0, 0}, .axis = {0, 0, 0}, .radius = 1.0, .length = 1.0}) ==
         "geometry::Cylinder: axis must be a finite vector other than zero, got (0, 0, 0)");
   CHECK(test::complaint_about(Cylinder{.base_centre = {0, nan, 0}, .axis = {0, 0, 1}, .radius = 1.0, .length = 1.0}) ==

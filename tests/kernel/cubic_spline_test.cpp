@@ -5,7 +5,9 @@ namespace kernel = dmp::kernel;
 
 TEST_CASE("the cubic spline obeys the laws of kernels in 1D, 2D and 3D") { check_kernel_laws<kernel::CubicSpline>(); }
 TEST_CASE("the cubic spline ends at its support radius, whatever that is") { check_kernel_ends_at_its_support<kernel::CubicSpline>(); }
-TEST_CASE("the cubic spline refuses a support radius that is no length") { check_kernel_refuses_bad_support<kernel::CubicSpline>("kernel::CubicSpline"); }
+TEST_CASE("the cubic spline refuses a support radius that is no length") {
+  check_kernel_refuses_bad_support<kernel::CubicSpline>("kernel::CubicSpline");
+}
 
 TEST_CASE("the cubic spline at r = 0 is 4/(3h), 40/(7 pi h^2), 8/(pi h^3), and a quarter of that at half the support") {
   constexpr double pi = 3.14159265358979323846;

@@ -1,11 +1,11 @@
 #pragma once
 #include <cmath>
-#include <doctest/doctest.h>
-#include <dmp/core/pack.hpp>
-#include <dmp/kernel/concept.hpp>
 #include "support/compare.hpp"
 #include "support/dual.hpp"
 #include "support/quadrature.hpp"
+#include <doctest/doctest.h>
+#include <dmp/core/pack.hpp>
+#include <dmp/kernel/concept.hpp>
 
 /// What every smoothing kernel must obey, at one support radius.
 template <class K>
@@ -23,7 +23,8 @@ void check_kernel_laws(const K& kernel) {
   // Partition of unity: the integral of W is 1. Gradients of linear fields are exact: the integral of |F| r^2 is Dim.
   CHECK(test::relative_error(test::ball_integral(dimension, h, W), 1.0) < 1e-12);
   CHECK(test::relative_error(test::ball_integral(dimension, h, [&](double r) { return -F(r) * r * r; }), dimension) < 1e-12);
-  CHECK(test::relative_error(dmp::kernel::radial_factor_integral(kernel), test::ball_integral(dimension, h, [&](double r) { return -F(r); })) < 1e-5);
+  CHECK(test::relative_error(dmp::kernel::radial_factor_integral(kernel),
+                             test::ball_integral(dimension, h, [&](double r) { return -F(r); })) < 1e-5);
 
   double before = W(0.0);
   for (const double r : test::evenly(0.0, 1.1 * h, 1237)) {

@@ -1,6 +1,6 @@
 #include "kernel/laws.hpp"
-#include <dmp/kernel/lucy.hpp>
 #include "support/lattice.hpp"
+#include <dmp/kernel/lucy.hpp>
 
 namespace kernel = dmp::kernel;
 
@@ -26,8 +26,9 @@ TEST_CASE("Lucy's kernel delivers this share of a gradient on square, hexagonal 
   struct Row {
     double support, square, hexagonal, square_density, hexagonal_density;
   };
-  for (const Row row : {Row{1.3, 0.7122, 0.9252, 1.0949, 1.0145}, Row{1.5, 0.8877, 1.0890, 1.0238, 1.0210}, Row{2.0, 1.0064, 0.9423, 1.0201, 1.0086},
-                        Row{2.6, 1.0061, 1.0055, 1.0000, 1.0041}, Row{3.0, 1.0008, 0.9924, 1.0029, 1.0003}}) {  // sheet 06, section 2.1
+  for (const Row row :
+       {Row{1.3, 0.7122, 0.9252, 1.0949, 1.0145}, Row{1.5, 0.8877, 1.0890, 1.0238, 1.0210}, Row{2.0, 1.0064, 0.9423, 1.0201, 1.0086},
+        Row{2.6, 1.0061, 1.0055, 1.0000, 1.0041}, Row{3.0, 1.0008, 0.9924, 1.0029, 1.0003}}) {  // sheet 06, section 2.1
     CAPTURE(row.support);
     const kernel::Lucy<2> lucy{.support_radius = row.support};
     double square = 0.0, hexagonal = 0.0, square_density = lucy.value(0.0), hexagonal_density = lucy.value(0.0) * std::sqrt(0.75);
@@ -47,11 +48,13 @@ TEST_CASE("Lucy's kernel delivers this share of a gradient on square, hexagonal 
   struct Cubic {
     double support, share;
   };
-  for (const Cubic cubic : {Cubic{2.25, 0.976}, Cubic{2.5, 0.968}, Cubic{2.75, 1.013}, Cubic{3.0, 1.006}, Cubic{3.5, 0.998}}) {  // sheet 02, 2.1
+  for (const Cubic cubic :
+       {Cubic{2.25, 0.976}, Cubic{2.5, 0.968}, Cubic{2.75, 1.013}, Cubic{3.0, 1.006}, Cubic{3.5, 0.998}}) {  // sheet 02, 2.1
     CAPTURE(cubic.support);
     const kernel::Lucy<3> lucy{.support_radius = cubic.support};
     double share = 0.0;
-    test::for_each_site<3>(cubic.support, [&](const auto& x, double volume) { share -= volume * lucy.radial_factor(std::sqrt(dot(x, x))) * x[0] * x[0]; });
+    test::for_each_site<3>(cubic.support,
+                           [&](const auto& x, double volume) { share -= volume * lucy.radial_factor(std::sqrt(dot(x, x))) * x[0] * x[0]; });
     CHECK(std::fabs(share - cubic.share) <= 0.5001e-3);
   }
 }

@@ -1,12 +1,14 @@
 #include "kernel/laws.hpp"
-#include <dmp/kernel/wendland_c2.hpp>
 #include <dmp/kernel/lucy.hpp>
+#include <dmp/kernel/wendland_c2.hpp>
 
 namespace kernel = dmp::kernel;
 
 TEST_CASE("Wendland's C2 kernel obeys the laws of kernels in 1D, 2D and 3D") { check_kernel_laws<kernel::WendlandC2>(); }
 TEST_CASE("Wendland's C2 kernel ends at its support radius, whatever that is") { check_kernel_ends_at_its_support<kernel::WendlandC2>(); }
-TEST_CASE("Wendland's C2 kernel refuses a support radius that is no length") { check_kernel_refuses_bad_support<kernel::WendlandC2>("kernel::WendlandC2"); }
+TEST_CASE("Wendland's C2 kernel refuses a support radius that is no length") {
+  check_kernel_refuses_bad_support<kernel::WendlandC2>("kernel::WendlandC2");
+}
 
 TEST_CASE("Wendland's C2 kernel is as wide as Dehnen and Aly's table 1 says") {
   CHECK(test::relative_error(0.5 / standard_deviation(kernel::WendlandC2<1>{.support_radius = 1.0}), 1.620185) < 1e-6);
@@ -17,8 +19,10 @@ TEST_CASE("Wendland's C2 kernel is as wide as Dehnen and Aly's table 1 says") {
 TEST_CASE("Wendland's C2 kernel is Lucy's on the line, and not in space") {
   for (const double r : {0.0, 0.2, 0.7, 0.95}) {
     CAPTURE(r);
-    CHECK(test::relative_error(kernel::WendlandC2<1>{.support_radius = 1.0}.value(r), kernel::Lucy<1>{.support_radius = 1.0}.value(r)) < 1e-14);
-    CHECK(test::relative_error(kernel::WendlandC2<3>{.support_radius = 1.0}.value(r), kernel::Lucy<3>{.support_radius = 1.0}.value(r)) > 0.1);
+    CHECK(test::relative_error(kernel::WendlandC2<1>{.support_radius = 1.0}.value(r), kernel::Lucy<1>{.support_radius = 1.0}.value(r)) <
+          1e-14);
+    CHECK(test::relative_error(kernel::WendlandC2<3>{.support_radius = 1.0}.value(r), kernel::Lucy<3>{.support_radius = 1.0}.value(r)) >
+          0.1);
   }
 }
 

@@ -16,6 +16,8 @@ TEST_CASE("blood of 3 mPa s has 3 mPa s everywhere") {
 }
 
 TEST_CASE("a constant viscosity refuses to be negative") {
-  CHECK(test::complaint_about(rheology::Constant{.dynamic_viscosity = -1.0}) == "rheology::Constant: dynamic_viscosity must be finite and >= 0 Pa s, got -1");
-  CHECK(test::complaint_about(rheology::Constant{.dynamic_viscosity = NAN}) == "rheology::Constant: dynamic_viscosity must be finite and >= 0 Pa s, got nan");
+  CHECK(test::complaint_about(rheology::Constant{.dynamic_viscosity = -1.0}) ==
+        "rheology::Constant: dynamic_viscosity must be finite and >= 0 Pa s, got -1");
+  CHECK(test::complaint_about(rheology::Constant{.dynamic_viscosity = NAN}) ==
+        "rheology::Constant: dynamic_viscosity must be finite and >= 0 Pa s, got nan");
 }

@@ -1,9 +1,9 @@
 #pragma once
 #include <cmath>
+#include "support/compare.hpp"
 #include <doctest/doctest.h>
 #include <dmp/core/field.hpp>
 #include <dmp/core/pack.hpp>
-#include "support/compare.hpp"
 
 /// What every law of the dynamic viscosity must obey: it writes that, a number >= 0, on double and on packs alike.
 template <class R>

@@ -30,7 +30,7 @@ template <class Law>
 
 /// Parameters are public, copies are copies of bytes: what lets a law live in a register and be set by name.
 template <class Law>
-inline constexpr bool is_plain = std::is_aggregate_v<Law> && std::is_trivially_copyable_v<Law>;
+inline constexpr bool is_plain = std::is_aggregate_v<Law>&& std::is_trivially_copyable_v<Law>;
 
 /// Largest difference between f on SIMD packs and f on double, at the numbers x, as a fraction of the largest |f|. The x are rounded
 /// to `Real` first, so that both see the same numbers.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <random>
 #include <dmp/core/field.hpp>
+#include <dmp/core/math.hpp>
 #include <dmp/core/pack.hpp>
 #include <dmp/core/pair.hpp>
 

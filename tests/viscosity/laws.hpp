@@ -1,13 +1,13 @@
 #pragma once
 #include <cmath>
+#include "support/compare.hpp"
+#include "support/lattice.hpp"
+#include "support/particles.hpp"
 #include <doctest/doctest.h>
 #include <dmp/core/pack.hpp>
 #include <dmp/kernel/concept.hpp>
 #include <dmp/kernel/lucy.hpp>
 #include <dmp/viscosity/concept.hpp>
-#include "support/compare.hpp"
-#include "support/lattice.hpp"
-#include "support/particles.hpp"
 
 namespace test {
 
@@ -18,14 +18,16 @@ template <int Dim, class V>
   const auto pair = pair_of<Dim>(i, j);
   const double m_F = j.mass * kernel.radial_factor(pair.distance);
   dmp::Components<Dim, double> result{};
-  if constexpr (dmp::viscosity::ActsAlongSeparation<V>) result -= (m_F * law.along_separation(pair, i, j, kernel.support_radius)) * pair.separation;
+  if constexpr (dmp::viscosity::ActsAlongSeparation<V>)
+    result -= (m_F * law.along_separation(pair, i, j, kernel.support_radius)) * pair.separation;
   if constexpr (dmp::viscosity::ActsAlongVelocity<V>) result += (m_F * law.along_velocity(pair, i, j)) * pair.relative_velocity;
   return result;
 }
 
 /// dv_0/dt of a particle at the origin of a square or cubic lattice of unit spacing, density 1, whose sites have velocity(position).
 template <int Dim, class V, class Velocity>
-[[nodiscard]] dmp::Components<Dim, double> lattice_acceleration(const V& law, double support_radius, double viscosity, const Velocity& velocity) {
+[[nodiscard]] dmp::Components<Dim, double> lattice_acceleration(const V& law, double support_radius, double viscosity,
+                                                                const Velocity& velocity) {
   const dmp::kernel::Lucy<Dim> kernel{.support_radius = support_radius};
   Particle<Dim> i{};
   i.mass = i.density = 1.0;
@@ -56,8 +58,12 @@ void check_viscosity_laws(const V& law, double share_of_pairs = 1.0) {
   const double h = kernel.support_radius;
   const auto force = [&](const auto& i, const auto& j) { return i.mass * test::viscous_acceleration<Dim>(law, i, j, kernel); };
 
+  double largest_force = 0.0, largest_power = 0.0;
   test::ParticleSource source;
-  double largest_power = 0.0;
+  for (int n = 0; n < 1000; ++n) {
+    const auto i = source.next<Dim>(), j = source.next<Dim>();
+    largest_force = std::fmax(largest_force, test::length(force(i, j)));
+  }
   for (int n = 0; n < 1000; ++n) {
     CAPTURE(n);
     auto i = source.next<Dim>(), j = source.next<Dim>();
@@ -75,14 +81,14 @@ void check_viscosity_laws(const V& law, double share_of_pairs = 1.0) {
     for (int d = 0; d < Dim; ++d) train[d] = 10.0 * (d + 1);
     moving_i.velocity += train;
     moving_j.velocity += train;
-    CHECK(test::length(force(moving_i, moving_j) - on_i) <= 1e-12 * (scale + 1e-3 * test::length(train)));
+    CHECK(test::length(force(moving_i, moving_j) - on_i) <= 1e-12 * largest_force);
 
     auto turned_i = i, turned_j = j;  // the same pair, seen with the head tilted
     for (auto* particle : {&turned_i, &turned_j}) {
       particle->position = test::rotate(particle->position);
       particle->velocity = test::rotate(particle->velocity);
     }
-    CHECK(test::length(force(turned_i, turned_j) - test::rotate(on_i)) <= 1e-13 * scale);
+    CHECK(test::length(force(turned_i, turned_j) - test::rotate(on_i)) <= 1e-13 * largest_force);
 
     j.velocity = i.velocity;  // both at one speed
     CHECK(test::length(force(i, j)) == 0.0);
@@ -117,8 +123,9 @@ void check_viscosity_laws(const V& law, double share_of_pairs = 1.0) {
     return velocity;
   };
   const double measured = -test::lattice_acceleration<Dim>(law, support, nu, one_moves)[0] / speed;
-  const double stated = law.damping_rate(nu, support, dmp::kernel::radial_factor_integral(dmp::kernel::Lucy<Dim>{.support_radius = support}), Dim);
+  const double stated =
+      law.damping_rate(nu, support, dmp::kernel::radial_factor_integral(dmp::kernel::Lucy<Dim>{.support_radius = support}), Dim);
   CAPTURE(stated);
   CHECK(measured <= 1.01 * share_of_pairs * stated);
-  CHECK(measured >= 0.65 * share_of_pairs * stated);  // softened laws reach 0.67 of it in 1D, 0.84 in 2D, 0.92 in 3D; the others 1
+  CHECK(measured >= 0.65 * share_of_pairs * stated);  // softened laws reach 0.67 of it in 1D, 0.87 in 2D, 0.93 in 3D, others 1
 }

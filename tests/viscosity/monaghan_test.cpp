@@ -24,10 +24,9 @@ TEST_CASE("Monaghan's viscosity of a parabolic profile is nu d^2u/dy^2, less 4.4
   CHECK(std::fabs(test::lattice_acceleration<3>(viscosity::Monaghan<3>{}, 20.0, nu, parabola)[0] / (2.0 * nu) - (1.0 - 0.033)) <= 0.5e-3);
 }
 
-TEST_CASE("Monaghan's viscosity on a square lattice gives a channel 14 % too fast at h = 2.6 spacings, 10 % at 3.6") {
+TEST_CASE("Monaghan's viscosity on a square lattice gives a channel 14 % too fast at h = 2.6 spacings") {
   const auto parabola = [](const dmp::Components<2, double>& x) { return dmp::Components<2, double>{x[1] * x[1], 0.0}; };
   CHECK(std::fabs(2.0 / test::lattice_acceleration<2>(viscosity::Monaghan<2>{}, 2.6, 1.0, parabola)[0] - 1.14) <= 0.005);
-  CHECK(std::fabs(2.0 / test::lattice_acceleration<2>(viscosity::Monaghan<2>{}, 3.6, 1.0, parabola)[0] - 1.10) <= 0.005);
 }
 
 TEST_CASE("Monaghan's viscosity damps at 40 nu/h^2 in 2D and 35 nu/h^2 in 3D with Lucy's kernel") {

@@ -1,5 +1,5 @@
-#include <doctest/doctest.h>
 #include <type_traits>
+#include <doctest/doctest.h>
 #include <dmp/viscosity/concept.hpp>
 #include <dmp/viscosity/none.hpp>
 

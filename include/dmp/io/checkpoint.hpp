@@ -85,7 +85,7 @@ class CheckpointWriter {
     requires std::ranges::sized_range<Range>
   void add(std::string_view name, const Range& values) {
     using Element = std::ranges::range_value_t<Range>;
-    static_assert(std::is_trivially_copyable_v<Element>, "dmp: a checkpoint holds trivially copyable elements: numbers, structs of numbers");
+    static_assert(std::is_trivially_copyable_v<Element>, "dmp: a checkpoint holds trivially copyable elements: numbers or structs of them");
     add_bytes(name, std::ranges::data(values), sizeof(Element), std::ranges::size(values));
   }
 

@@ -122,9 +122,12 @@ void write_vtp(const std::filesystem::path& path, const PointCloud<Dim, Id>& clo
   head += "      <PointData>\n";
   if (!cloud.ids.empty()) head += blocks.announce<Id>("id", points, 1);
   for (const PointData& data : cloud.data) head += blocks.announce<double>(data.name, points, detail::components_written(data.components));
-  head += "      </PointData>\n      <Points>\n" + blocks.announce<double>("Points", points, 3) + "      </Points>\n      <Verts>\n" +
-          blocks.announce<std::int64_t>("connectivity", points, 1) + blocks.announce<std::int64_t>("offsets", points, 1) +
-          "      </Verts>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
+  head += "      </PointData>\n      <Points>\n";
+  head += blocks.announce<double>("Points", points, 3);
+  head += "      </Points>\n      <Verts>\n";
+  head += blocks.announce<std::int64_t>("connectivity", points, 1);
+  head += blocks.announce<std::int64_t>("offsets", points, 1);
+  head += "      </Verts>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
 
   detail::WholeFile file(path);
   file.write(head);

@@ -35,9 +35,7 @@ struct Quartic {
   }
   [[nodiscard]] double volume() const noexcept {  // s
     const double h = support_radius;
-    return Dim == 1   ? 256.0 * h / 315.0
-           : Dim == 2 ? std::numbers::pi * h * h / 5.0
-                      : 512.0 * std::numbers::pi * h * h * h / 3465.0;
+    return Dim == 1 ? 256.0 * h / 315.0 : Dim == 2 ? std::numbers::pi * h * h / 5.0 : 512.0 * std::numbers::pi * h * h * h / 3465.0;
   }
 };
 

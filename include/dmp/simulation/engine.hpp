@@ -161,7 +161,8 @@ class Engine {
       for_each_item([&](auto& active) {
         using I = std::remove_cvref_t<decltype(active.item)>;
         if constexpr (is_interaction<I>) {
-          auto &a = group<typename I::A>(), &b = group<typename I::B>();
+          auto& a = group<typename I::A>();
+          auto& b = group<typename I::B>();
           const double radius = active.item.cutoff() + skin_;
           list(a, b, active.of_a, active.excluded_of_a, radius);
           if constexpr (!std::is_same_v<typename I::A, typename I::B>) list(b, a, active.of_b, active.excluded_of_b, radius);
@@ -243,7 +244,8 @@ class Engine {
   template <class Active>
   void prepare_bonds(Active& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
-    auto &a = group<typename I::A>(), &b = group<typename I::B>();
+    auto& a = group<typename I::A>();
+    auto& b = group<typename I::B>();
     constexpr bool same = std::is_same_v<typename I::A, typename I::B>;
     neighbours::complete_bonds<Dim>(active.item.bonds, a.positions(), b.positions(), same, box_, same ? a.name : a.name + " and " + b.name);
     if constexpr (mobile<decltype(a)>) active.of_a.build(a.size(), active.item.bonds, same, false);

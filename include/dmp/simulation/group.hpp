@@ -12,6 +12,7 @@
 #include <dmp/particles/columns.hpp>
 #include <dmp/particles/ghosts.hpp>
 #include <dmp/particles/records.hpp>
+#include <dmp/particles/view.hpp>
 #include <dmp/simulation/composition.hpp>
 
 namespace dmp::simulation {
@@ -81,6 +82,17 @@ class Group {
   void set(Function&& function) {
     auto& values = get<Field>();
     for (std::size_t k = 0; k < size(); ++k) values[k] = function(std::as_const(positions()[k]));
+  }
+
+  /// The group without its type.
+  [[nodiscard]] particles::GroupView view() {
+    particles::GroupView result{name, Mobility::name, Mobility::evolves, id, {}};
+    for_each_field(typename Layout::columns{}, [&]<class Field>(Field) {
+      auto& values = columns.template get<Field>();
+      constexpr int components = Field::is_vector ? Dim : 1;
+      result.columns.push_back({Field::name, Field::unit, components, {reinterpret_cast<double*>(values.data()), components * values.size()}});
+    });
+    return result;
   }
 
   /// View of record `index`, with the constants of the group, in all lanes.

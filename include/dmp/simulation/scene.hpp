@@ -1,18 +1,18 @@
 #pragma once
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 #include <dmp/core/simulation_error.hpp>
-#include <dmp/io/checkpoint.hpp>
 #include <dmp/simulation/engine.hpp>
 #include <dmp/simulation/progress.hpp>
+#include <dmp/simulation/state.hpp>
 #include <dmp/sweep/step_limit.hpp>
 
 namespace dmp::simulation {
@@ -52,8 +52,8 @@ class Scene {
   }
   [[nodiscard]] Engine<Dim, Integrator, Item...>& engine() noexcept { return engine_; }
   [[nodiscard]] const Engine<Dim, Integrator, Item...>& engine() const noexcept { return engine_; }
-  [[nodiscard]] double time() const noexcept { return time_; }           ///< [s]
-  [[nodiscard]] std::uint64_t step() const noexcept { return step_; }    ///< since the very start, restarts included
+  [[nodiscard]] double time() const noexcept { return clock_.time; }           ///< [s]
+  [[nodiscard]] std::uint64_t step() const noexcept { return clock_.step; }    ///< since the very start, restarts included
   [[nodiscard]] std::size_t particles() const {
     std::size_t count = 0;
     engine_.for_each_group([&count](const auto& g) { count += g.size(); });
@@ -92,7 +92,7 @@ class Scene {
   }
 
   RunReport run(const RunOptions& options) {
-    require(options.until >= time_ && options.until < std::numeric_limits<double>::infinity(), "scene: run until must be finite and not before the present time [s]", options.until);
+    require(options.until >= clock_.time && options.until < std::numeric_limits<double>::infinity(), "scene: run until must be finite and not before the present time [s]", options.until);
     require_not_negative("scene: time_step", options.time_step, "s");
     require(options.safety > 0.0 && options.safety <= 1.0, "scene: safety must be > 0 and <= 1", options.safety);
     require(options.check_every > 0, "scene: check_every must be > 0", static_cast<double>(options.check_every));
@@ -110,26 +110,26 @@ class Scene {
       const double first_dt = dt;
       choose_substeps(dt);
       check();
-      Progress bar(shows_progress_, time_, options.until);
+      Progress bar(shows_progress_, clock_.time, options.until);
       observe(dt);
-      double base_time = time_;
-      std::uint64_t base_step = step_;
-      while (time_ < options.until - 0.5 * dt) {
-        if (options.time_step == 0.0 && step_ % 10 == 0) {
+      double base_time = clock_.time;
+      std::uint64_t base_step = clock_.step;
+      while (clock_.time < options.until - 0.5 * dt) {
+        if (options.time_step == 0.0 && clock_.step % 10 == 0) {
           const auto limit = find_step_limit(has_substeps);
           if (limit.time_step < report.limit.time_step) report.limit = limit;
           dt = options.safety * limit.time_step;
-          if (!(dt > 1e-6 * first_dt)) throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")", {time_, step_, "", -1, "time_step", dt});
-          base_time = time_;
-          base_step = step_;
+          if (!(dt > 1e-6 * first_dt)) throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")", {clock_.time, clock_.step, "", -1, "time_step", dt});
+          base_time = clock_.time;
+          base_step = clock_.step;
           choose_substeps(dt);
         }
-        ++step_;
-        time_ = base_time + static_cast<double>(step_ - base_step) * dt;
-        engine_.step(dt, time_);
-        if (step_ % options.check_every == 0) check();
+        ++clock_.step;
+        clock_.time = base_time + static_cast<double>(clock_.step - base_step) * dt;
+        engine_.step(dt, clock_.time);
+        if (clock_.step % options.check_every == 0) check();
         observe(dt);
-        bar.show(time_);
+        bar.show(clock_.time);
         ++report.steps;
       }
       check();
@@ -151,36 +151,16 @@ class Scene {
   void checkpoint(const std::string& path) {
     prepare();
     engine_.build_lists();
-    io::CheckpointWriter writer(path, signature());
-    writer.add("clock", std::span<const double>(std::vector<double>{time_, static_cast<double>(step_)}));
-    engine_.for_each_group([&writer](const auto& g) { write_group(writer, g, g.columns, g.id); });
-    writer.commit();
+    write_checkpoint(path, signature(), views(), clock_);
   }
-  /// Continues from a checkpoint of the same program and the same particle numbers.
+  /// Continues from a checkpoint of the same composition and the same particle numbers.
   void restart(const std::string& path) {
-    const io::CheckpointReader reader(path, signature());
-    const auto clock = reader.template read<double>("clock");
-    if (clock.size() != 2) throw io::CheckpointError(path + ": section clock must hold 2 numbers");
-    engine_.for_each_group([&](auto& g) {
-      using List = typename std::remove_cvref_t<decltype(g)>::Layout::columns;
-      for_each_field(List{}, [&]<class Field>(Field) { read_column(reader, path, g.name + "." + std::string(Field::name), g.template get<Field>()); });
-      read_column(reader, path, g.name + ".id", g.id);
-    });
-    time_ = clock[0];
-    step_ = static_cast<std::uint64_t>(clock[1]);
+    clock_ = read_checkpoint(path, signature(), views());
     engine_.build_lists();
     prepared_ = true;
   }
-  /// Names groups, mobilities, columns and dimension: a checkpoint of another composition does not fit.
-  [[nodiscard]] std::string signature() const {
-    std::string text = std::to_string(Dim) + "D, " + std::string(Integrator::name);
-    engine_.for_each_group([&text](const auto& g) {
-      using G = std::remove_cvref_t<decltype(g)>;
-      text += "; " + g.name + " (" + std::string(G::Mobility::name) + "):";
-      for_each_field(typename G::Layout::columns{}, [&text]<class Field>(Field) { text += " " + std::string(Field::name); });
-    });
-    return text;
-  }
+  /// What a checkpoint must agree with: dimension, integrator, groups, mobilities, columns.
+  [[nodiscard]] std::string signature() { return simulation::signature(Dim, Integrator::name, views()); }
 
  private:
   static constexpr bool has_substeps = Engine<Dim, Integrator, Item...>::has_substeps;
@@ -192,14 +172,14 @@ class Scene {
 
   void prepare() {
     if (prepared_) return;
-    engine_.evaluate(time_);
+    engine_.evaluate(clock_.time);
     reject_overlaps();
     prepared_ = true;
   }
 
   void observe(double dt) {
     for (auto& observer : observers_) {
-      const auto due = static_cast<std::int64_t>(std::floor((time_ + 0.5 * dt) / observer.interval));
+      const auto due = static_cast<std::int64_t>(std::floor((clock_.time + 0.5 * dt) / observer.interval));
       if (due <= observer.done) continue;
       observer.done = due;
       observer.call(*this);
@@ -236,7 +216,6 @@ class Scene {
 
   template <class G>
   [[nodiscard]] sweep::StepState state_of(const G& g) const {
-    using C = typename G::Layout;
     sweep::StepState state{.oscillation_limit = Integrator::oscillation_limit, .damping_limit = Integrator::damping_limit};
     if constexpr (particles::is_mobile<typename G::Mobility>) state.mass = g.mass;
     for (std::size_t i = 0; i < g.size(); ++i) {
@@ -345,97 +324,33 @@ class Scene {
 
   // ---- checks and rescue ----------------------------------------------------------------------------------------------------
 
+  [[nodiscard]] std::vector<particles::GroupView> views() {
+    std::vector<particles::GroupView> result;
+    engine_.for_each_group([&result](auto& g) { result.push_back(g.view()); });
+    return result;
+  }
   /// All values finite, all particles in the box; then this state is the last good one.
   void check() {
-    engine_.for_each_group([this](const auto& g) { check_group(g); });
-    if (rescue_path_.empty()) return;
-    good_time_ = time_;
-    good_step_ = step_;
-    snapshot_ = std::make_optional<Snapshot>();
-    engine_.for_each_group([this](const auto& g) { std::get<Copy<std::remove_cvref_t<decltype(g)>>>(*snapshot_) = {g.columns, g.id}; });
-  }
-  template <class G>
-  void check_group(const G& g) const {
-    if constexpr (G::Mobility::evolves) {
-      for_each_field(typename G::Layout::columns{}, [&]<class Field>(Field) {
-        const auto& values = g.template get<Field>();
-        double probe = 0.0;  // stays 0 as long as all values are finite
-        for (const auto& value : values) {
-          if constexpr (Field::is_vector)
-            probe += 0.0 * value.sum();
-          else
-            probe += 0.0 * value;
-        }
-        if (probe == 0.0) return;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-          if constexpr (Field::is_vector) {
-            for (int d = 0; d < Dim; ++d)
-              if (!(values[i][d] - values[i][d] == 0.0)) fail("a value is not finite", g, i, Field::name, values[i][d]);
-          } else {
-            if (!(values[i] - values[i] == 0.0)) fail("a value is not finite", g, i, Field::name, values[i]);
-          }
-        }
-      });
-      const auto& box = engine_.box();
-      for (std::size_t i = 0; i < g.size(); ++i)
-        for (int d = 0; d < Dim; ++d) {
-          const double x = g.positions()[i][d];
-          if (!box.periodic[static_cast<std::size_t>(d)] && !(x >= box.lower[d] && x <= box.upper[d])) fail("a particle left the box", g, i, field::Position::name, x);
-        }
+    const auto groups = views();
+    std::array<double, Dim> lower, upper;
+    for (int d = 0; d < Dim; ++d) {
+      const auto k = static_cast<std::size_t>(d);
+      const bool open = engine_.box().periodic[k];  // particles wander out of a periodic face until the lists are rebuilt
+      lower[k] = open ? -std::numeric_limits<double>::infinity() : engine_.box().lower[d];
+      upper[k] = open ? std::numeric_limits<double>::infinity() : engine_.box().upper[d];
     }
+    check_state(groups, lower, upper, clock_);
+    if (!rescue_path_.empty()) last_good_.take(groups, clock_);
   }
-  template <class G>
-  [[noreturn]] void fail(const char* what, const G& g, std::size_t i, std::string_view field, double value) const {
-    throw SimulationError(what, {time_, step_, g.name, static_cast<std::int64_t>(g.id[i]), std::string(field), value});
+  void rescue() {
+    if (!last_good_.empty()) write_checkpoint(rescue_path_, signature(), views(), last_good_);
   }
-
-  void rescue() const {
-    if (rescue_path_.empty() || !snapshot_) return;
-    io::CheckpointWriter writer(rescue_path_, signature());
-    writer.add("clock", std::span<const double>(std::vector<double>{good_time_, static_cast<double>(good_step_)}));
-    engine_.for_each_group([&](const auto& g) {
-      const auto& copy = std::get<Copy<std::remove_cvref_t<decltype(g)>>>(*snapshot_);
-      write_group(writer, g, copy.columns, copy.id);
-    });
-    writer.commit();
-  }
-  static void write_group(io::CheckpointWriter& writer, const auto& g, const auto& columns, const std::vector<std::uint32_t>& id) {
-    for_each_field(typename std::remove_cvref_t<decltype(g)>::Layout::columns{}, [&]<class Field>(Field) {
-      const auto& values = columns.template get<Field>();
-      constexpr std::size_t numbers = Field::is_vector ? Dim : 1;
-      writer.add(g.name + "." + std::string(Field::name), std::span<const double>(reinterpret_cast<const double*>(values.data()), numbers * values.size()));
-    });
-    writer.add(g.name + ".id", std::span<const std::uint32_t>(id));
-  }
-  template <class V>
-  static void read_column(const io::CheckpointReader& reader, const std::string& path, const std::string& section, std::vector<V>& to) {
-    using Number = std::conditional_t<std::is_same_v<V, std::uint32_t>, std::uint32_t, double>;
-    const auto numbers = reader.template read<Number>(section);
-    if (numbers.size() * sizeof(Number) != to.size() * sizeof(V))
-      throw io::CheckpointError(path + ": section " + section + " must hold " + std::to_string(to.size()) + " particles, got " +
-                                std::to_string(numbers.size() * sizeof(Number) / sizeof(V)));
-    std::copy(numbers.begin(), numbers.end(), reinterpret_cast<Number*>(to.data()));
-  }
-
-  template <class G>
-  struct Copy {
-    typename G::Columns columns;
-    std::vector<std::uint32_t> id;
-  };
-  template <class List>
-  struct SnapshotOf;
-  template <class... G>
-  struct SnapshotOf<std::tuple<G...>> {
-    using type = std::tuple<Copy<G>...>;
-  };
-  using Snapshot = typename SnapshotOf<typename Engine<Dim, Integrator, Item...>::Groups>::type;
 
   Engine<Dim, Integrator, Item...> engine_;
   std::vector<Observer> observers_;
   std::string rescue_path_;
-  std::optional<Snapshot> snapshot_;
-  double time_ = 0.0, good_time_ = 0.0;
-  std::uint64_t step_ = 0, good_step_ = 0;
+  Snapshot last_good_;
+  Clock clock_;
   bool prepared_ = false, shows_progress_ = false;
 };
 

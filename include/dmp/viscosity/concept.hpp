@@ -42,10 +42,12 @@ concept ViscosityLaw = std::is_trivially_copyable_v<V> && requires(const V law, 
 
 template <class V>
 consteval bool explain_viscosity() {
-  static_assert(requires { typename V::reads; }, "dmp: not a ViscosityLaw: no `using reads = Fields<...>;`, the fields it reads of both particles");
+  static_assert(requires { typename V::reads; },
+                "dmp: not a ViscosityLaw: no `using reads = Fields<...>;`, the fields it reads of both particles");
   static_assert(requires(const V v, double x) { { v.damping_rate(x, x, x, 2) } -> std::same_as<double>; },
                 "dmp: not a ViscosityLaw: no `double damping_rate(nu, support_radius, radial_factor_integral, dimension) const` [1/s]");
-  static_assert(requires(const V v) { validate(v); }, "dmp: not a ViscosityLaw: no `void validate(const V&)`, which throws ParameterError on bad parameters");
+  static_assert(requires(const V v) { validate(v); },
+                "dmp: not a ViscosityLaw: no `void validate(const V&)`, which throws ParameterError on bad parameters");
   return ViscosityLaw<V>;
 }
 

@@ -1,0 +1,30 @@
+#include "support/options.hpp"
+
+#include <cstdlib>
+#include <CLI/CLI.hpp>
+#include <dmp/core/threads.hpp>
+
+namespace example {
+
+Options options(int argc, char** argv, const std::string& name, const std::string& what) {
+  CLI::App parser(what, name);
+  Options result;
+  result.output = "output/" + name;
+  bool quick = false, full = false;
+  int threads = dmp::available_threads();
+  auto* const quick_flag = parser.add_flag("--quick", quick, "coarse run of a few seconds, as in the tests");
+  parser.add_flag("--full", full, "published resolution; may take long")->excludes(quick_flag);
+  parser.add_option("--threads", threads, "threads to use")->check(CLI::PositiveNumber)->capture_default_str();
+  parser.add_option("--output", result.output, "folder for all output")->capture_default_str();
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::ParseError& stop) {
+    std::exit(parser.exit(stop));
+  }
+  dmp::use_threads(threads);
+  if (quick) result.size = Size::quick;
+  if (full) result.size = Size::full;
+  return result;
+}
+
+}  // namespace example

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "support/options.hpp"
+
+namespace example {
+
+/// What a run is worth: its errors against what is known, its cost, and the law that bound its time step.
+///   Result result{.example = "poiseuille", .test_case = "VISC-1"};
+///   result.error("L2 of the velocity profile", error, 0.55 / rows, "series solution");
+///   return result.print();
+struct Result {
+  struct Error {
+    std::string name;
+    double value, bound;
+    std::string reference;
+  };
+  std::string example{}, test_case{}, resolution{};
+  std::size_t particles = 0;
+  std::uint64_t steps = 0;
+  double wall_seconds = 0.0, particle_steps = 0.0, bytes_per_particle = 0.0;
+  std::string step_bound_by{};
+  std::vector<Error> errors{};
+
+  /// Notes that |value| should be <= bound, and where the reference comes from.
+  void error(std::string name, double value, double bound, std::string reference);
+
+  /// Adds what a run (RunReport) took.
+  template <class Report>
+  void add(const Report& report) {
+    steps += report.steps;
+    wall_seconds += report.wall_seconds;
+    particle_steps += report.particle_steps;
+    step_bound_by = report.limit.bound_by;
+  }
+  [[nodiscard]] bool holds() const;
+
+  /// Prints the errors as a table and the line "result: {...}", one JSON object. The exit status: 0 when every bound holds, else 1.
+  [[nodiscard]] int print() const;
+};
+
+/// Runs `function` and turns what it throws into a message and exit status 2: the last line of every example's main.
+[[nodiscard]] int guarded(const char* name, int (*function)(const Options&), const Options& options);
+
+}  // namespace example

@@ -1,0 +1,19 @@
+#pragma once
+// Everything that needs only Eigen. What needs a further library (app/options.hpp: CLI11) is included by name.
+#include <dmp/bond.hpp>
+#include <dmp/diffusion.hpp>
+#include <dmp/eos.hpp>
+#include <dmp/forcing.hpp>
+#include <dmp/geometry.hpp>
+#include <dmp/integrator.hpp>
+#include <dmp/io.hpp>
+#include <dmp/kernel.hpp>
+#include <dmp/neighbours.hpp>
+#include <dmp/particles.hpp>
+#include <dmp/potential.hpp>
+#include <dmp/rheology.hpp>
+#include <dmp/simulation.hpp>
+#include <dmp/sph.hpp>
+#include <dmp/sweep.hpp>
+#include <dmp/tensile.hpp>
+#include <dmp/viscosity.hpp>

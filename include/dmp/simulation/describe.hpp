@@ -1,0 +1,79 @@
+#pragma once
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <dmp/simulation/scene.hpp>
+
+namespace dmp::simulation {
+
+/// Bytes that a scene holds per particle: columns, ids, records (with ghosts) and lists.
+template <class Scene>
+[[nodiscard]] double bytes_per_particle(const Scene& scene) {
+  double bytes = 0.0;
+  scene.engine().for_each_group([&bytes](const auto& g) {
+    using G = std::remove_cvref_t<decltype(g)>;
+    bytes += static_cast<double>(g.size() * (G::Columns::bytes_per_particle + sizeof(std::uint32_t)));
+    if constexpr (G::Layout::has_records) bytes += static_cast<double>(g.records.size() * G::Records::bytes_per_particle());
+    if constexpr (G::Layout::has_pairs) bytes += static_cast<double>(g.size() * sizeof(Vector<G::Dim>));  // at_list_build
+  });
+  scene.engine().for_each_item([&bytes](const auto& active) {
+    if constexpr (requires { active.of_a.bytes(); }) bytes += static_cast<double>(active.of_a.bytes() + active.of_b.bytes());
+  });
+  return bytes / static_cast<double>(scene.particles());
+}
+
+/// What a scene consists of, and therefore what it costs: groups with their columns and records, interactions, sweeps of one step, and
+/// the law that binds the time step. What is not listed is not in the program.
+template <class Scene>
+[[nodiscard]] std::string describe(Scene& scene) {
+  std::ostringstream text;
+  const auto fields = [&text]<class... Field>(Fields<Field...>) { ((text << ' ' << Field::name), ...); };
+  text << "groups\n";
+  int gathers = 0, integrations = 0, packs = 0;
+  scene.engine().for_each_group([&](const auto& g) {
+    using G = std::remove_cvref_t<decltype(g)>;
+    using L = typename G::Layout;
+    text << "  " << g.name << ": " << g.size() << " particles, " << G::Mobility::name << ", " << G::Columns::bytes_per_particle << " B in columns:";
+    fields(typename L::columns{});
+    if constexpr (L::has_records) {
+      text << "; " << G::Records::bytes_per_particle() << " B record:";
+      fields(typename L::record{});
+    } else {
+      text << "; no record";
+    }
+    text << "; constants:";
+    fields(typename L::constants{});
+    text << "; " << g.ghosts.size() << " ghosts\n";
+    if (G::Mobility::evolves) {
+      ++integrations;
+      if (L::has_records) ++packs;
+      if (particles::is_mobile<typename G::Mobility> || !std::is_same_v<typename L::rates, Fields<>>) ++gathers;
+    }
+  });
+  const auto name = [&scene]<class Tag>(std::type_identity<Tag>) { return scene.template group<Tag>().name; };
+  text << "interactions\n";
+  bool any = false;
+  scene.engine().for_each_item([&](const auto& active) {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_interaction<I>) {
+      text << "  pairs " << name(std::type_identity<typename I::A>{}) << " - " << name(std::type_identity<typename I::B>{}) << ": cut-off " << active.item.cutoff() << " m, writes";
+      fields(typename I::writes{});
+      text << '\n';
+      any = true;
+    }
+    if constexpr (is_bonds<I>) {
+      text << "  bonds " << name(std::type_identity<typename I::A>{}) << " - " << name(std::type_identity<typename I::B>{}) << ": " << active.item.bonds.size() << " bonds"
+           << (I::uses_velocity ? ", with velocities" : "") << (I::substepped ? ", sub-stepped" : "") << '\n';
+      any = true;
+    }
+  });
+  if (!any) text << "  none\n";
+  text << "each step: " << packs << " record passes, " << gathers << " gather sweeps, " << 2 * integrations << " integration passes";
+  if constexpr (!std::remove_cvref_t<decltype(scene.engine())>::has_pairs) text << ", no neighbour lists, no ghosts";
+  const auto limit = scene.step_limit();
+  text << "\ntime step <= " << limit.time_step << " s, bound by " << limit.bound_by << '\n';
+  text << bytes_per_particle(scene) << " bytes per particle\n";
+  return text.str();
+}
+
+}  // namespace dmp::simulation

@@ -1,0 +1,134 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+#include <dmp/core/simulation_error.hpp>
+#include <dmp/io/checkpoint.hpp>
+#include <dmp/particles/view.hpp>
+
+/// The state of a scene as plain numbers: checked, copied, written and read without knowing the types of its groups.
+namespace dmp::simulation {
+
+/// When a state is.
+struct Clock {
+  double time = 0.0;       ///< [s]
+  std::uint64_t step = 0;  ///< since the very start
+};
+
+/// Names dimension, integrator, groups, mobilities and columns: a checkpoint of another composition does not fit.
+[[nodiscard]] inline std::string signature(int dimension, std::string_view integrator, const std::vector<particles::GroupView>& groups) {
+  std::string text = std::to_string(dimension) + "D, " + std::string(integrator);
+  for (const auto& group : groups) {
+    text += "; " + group.name + " (" + std::string(group.mobility) + "):";
+    for (const auto& column : group.columns) text += " " + std::string(column.name);
+  }
+  return text;
+}
+
+/// Throws SimulationError for the first value that is not finite, and the first particle outside lower .. upper [m] (infinite bounds: none).
+inline void check_state(const std::vector<particles::GroupView>& groups, std::span<const double> lower, std::span<const double> upper, const Clock& clock) {
+  for (const auto& group : groups) {
+    if (!group.evolves) continue;
+    const auto fail = [&](const char* what, const particles::ColumnView& column, std::size_t k) {
+      throw SimulationError(what, {clock.time, clock.step, group.name, static_cast<std::int64_t>(group.id[k / static_cast<std::size_t>(column.components)]),
+                                   std::string(column.name), column.values[k]});
+    };
+    for (const auto& column : group.columns) {
+      double probe = 0.0;  // stays 0 as long as all values are finite
+      for (const double value : column.values) probe += 0.0 * value;
+      if (probe == 0.0) continue;
+      for (std::size_t k = 0; k < column.values.size(); ++k)
+        if (!(column.values[k] - column.values[k] == 0.0)) fail("a value is not finite", column, k);
+    }
+    const auto& position = group.columns.front();
+    for (std::size_t k = 0; k < position.values.size(); ++k) {
+      const std::size_t d = k % lower.size();
+      if (!(position.values[k] >= lower[d] && position.values[k] <= upper[d])) fail("a particle left the box", position, k);
+    }
+  }
+}
+
+/// A copy of all columns.
+struct Snapshot {
+  Clock clock;
+  std::vector<std::vector<double>> columns;
+  std::vector<std::vector<std::uint32_t>> id;
+
+  void take(const std::vector<particles::GroupView>& groups, const Clock& at) {
+    clock = at;
+    std::size_t column = 0;
+    id.resize(groups.size());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      id[g].assign(groups[g].id.begin(), groups[g].id.end());
+      for (const auto& view : groups[g].columns) {
+        if (columns.size() <= column) columns.emplace_back();
+        columns[column++].assign(view.values.begin(), view.values.end());
+      }
+    }
+  }
+  [[nodiscard]] bool empty() const noexcept { return columns.empty(); }
+};
+
+namespace detail {
+inline void write_clock(io::CheckpointWriter& writer, const Clock& clock) {
+  writer.add("time", std::span<const double>(&clock.time, 1));
+  writer.add("step", std::span<const std::uint64_t>(&clock.step, 1));
+}
+[[nodiscard]] inline std::string section(const particles::GroupView& group, std::string_view what) { return group.name + "." + std::string(what); }
+}  // namespace detail
+
+inline void write_checkpoint(const std::string& path, const std::string& signature, const std::vector<particles::GroupView>& groups, const Clock& clock) {
+  io::CheckpointWriter writer(path, signature);
+  detail::write_clock(writer, clock);
+  for (const auto& group : groups) {
+    for (const auto& column : group.columns) writer.add(detail::section(group, column.name), std::span<const double>(column.values));
+    writer.add(detail::section(group, "id"), std::span<const std::uint32_t>(group.id));
+  }
+  writer.commit();
+}
+
+/// The same file from a snapshot.
+inline void write_checkpoint(const std::string& path, const std::string& signature, const std::vector<particles::GroupView>& groups, const Snapshot& snapshot) {
+  io::CheckpointWriter writer(path, signature);
+  detail::write_clock(writer, snapshot.clock);
+  std::size_t next = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const auto& column : groups[g].columns) writer.add(detail::section(groups[g], column.name), std::span<const double>(snapshot.columns[next++]));
+    writer.add(detail::section(groups[g], "id"), std::span<const std::uint32_t>(snapshot.id[g]));
+  }
+  writer.commit();
+}
+
+/// Fills the groups from a checkpoint; their particle numbers must be those of the file. Nothing is changed when something does not fit.
+[[nodiscard]] inline Clock read_checkpoint(const std::string& path, const std::string& signature, const std::vector<particles::GroupView>& groups) {
+  const io::CheckpointReader reader(path, signature);
+  std::vector<std::vector<double>> columns;
+  std::vector<std::vector<std::uint32_t>> ids;
+  const auto fits = [&path](const std::string& section, std::size_t got, std::size_t wanted) {
+    if (got != wanted)
+      throw io::CheckpointError(path + ": section " + section + " must hold " + std::to_string(wanted) + " numbers, got " + std::to_string(got));
+  };
+  const auto time = reader.template read<double>("time");
+  const auto step = reader.template read<std::uint64_t>("step");
+  fits("time", time.size(), 1);
+  fits("step", step.size(), 1);
+  for (const auto& group : groups) {
+    for (const auto& column : group.columns) {
+      columns.push_back(reader.template read<double>(detail::section(group, column.name)));
+      fits(detail::section(group, column.name), columns.back().size(), column.values.size());
+    }
+    ids.push_back(reader.template read<std::uint32_t>(detail::section(group, "id")));
+    fits(detail::section(group, "id"), ids.back().size(), group.id.size());
+  }
+  std::size_t next = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const auto& column : groups[g].columns) std::copy(columns[next].begin(), columns[next].end(), column.values.begin()), ++next;
+    std::copy(ids[g].begin(), ids[g].end(), groups[g].id.begin());
+  }
+  return {time[0], step[0]};
+}
+
+}  // namespace dmp::simulation

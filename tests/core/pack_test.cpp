@@ -1,0 +1,148 @@
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+#include <doctest/doctest.h>
+#include <dmp/core/math.hpp>
+#include <dmp/core/pack.hpp>
+
+namespace {
+
+/// Calls f<Real, Width>() for every width up to the target's, in single and in double precision.
+template <class Function>
+void for_every_pack(const Function& f) {
+  f.template operator()<double, 1>();
+  f.template operator()<double, 2>();
+  f.template operator()<double, 4>();
+  f.template operator()<double, dmp::native_width<double>>();
+  f.template operator()<float, 1>();
+  f.template operator()<float, 4>();
+  f.template operator()<float, 8>();
+  f.template operator()<float, dmp::native_width<float>>();
+}
+
+/// Two packs of different numbers, every lane its own.
+template <class Real, int Width>
+struct Two {
+  Real a[Width], b[Width];
+  dmp::Pack<Real, Width> x, y;
+  Two() {
+    for (int lane = 0; lane < Width; ++lane) {
+      a[lane] = static_cast<Real>(0.5 + 1.25 * lane);
+      b[lane] = static_cast<Real>(4.0 - 1.5 * lane);
+    }
+    x = dmp::Pack<Real, Width>::load(a);
+    y = dmp::Pack<Real, Width>::load(b);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a pack calculates in each lane what a number calculates") {
+  for_every_pack([]<class Real, int Width>() {
+    CAPTURE(sizeof(Real));
+    CAPTURE(Width);
+    static_assert(sizeof(dmp::Pack<Real, Width>) == sizeof(Real) * Width);
+    static_assert(std::is_trivially_copyable_v<dmp::Pack<Real, Width>>);
+    const Two<Real, Width> two;
+    const auto &x = two.x, &y = two.y;
+    auto plus = x, minus = x, times = x;
+    plus += y;
+    minus -= y;
+    times *= y;
+    for (int lane = 0; lane < Width; ++lane) {
+      CAPTURE(lane);
+      const Real a = two.a[lane], b = two.b[lane], two_r = Real(2);
+      CHECK((x + y)[lane] == a + b);
+      CHECK((x - y)[lane] == a - b);
+      CHECK((x * y)[lane] == a * b);
+      CHECK((x / y)[lane] == a / b);
+      CHECK((-x)[lane] == -a);
+      CHECK((2.0 + x)[lane] == two_r + a);
+      CHECK((2.0 - x)[lane] == two_r - a);
+      CHECK((2.0 * x)[lane] == two_r * a);
+      CHECK((2.0 / x)[lane] == two_r / a);
+      CHECK((x + 2.0)[lane] == a + two_r);
+      CHECK((x - 2.0)[lane] == a - two_r);
+      CHECK((x * 2.0)[lane] == a * two_r);
+      CHECK((x / 2.0)[lane] == a / two_r);
+      CHECK(plus[lane] == a + b);
+      CHECK(minus[lane] == a - b);
+      CHECK(times[lane] == a * b);
+      CHECK(min(x, y)[lane] == (b < a ? b : a));
+      CHECK(max(x, y)[lane] == (a < b ? b : a));
+      CHECK(max(y, 0.0)[lane] == (b < Real(0) ? Real(0) : b));
+      CHECK(min(0.0, y)[lane] == (b < Real(0) ? b : Real(0)));
+      CHECK(abs(y)[lane] == (b < Real(0) ? -b : b));
+      CHECK(dmp::square(y)[lane] == b * b);
+    }
+  });
+}
+
+TEST_CASE("a pack selects lane by lane") {
+  for_every_pack([]<class Real, int Width>() {
+    CAPTURE(sizeof(Real));
+    CAPTURE(Width);
+    const Two<Real, Width> two;
+    const auto &x = two.x, &y = two.y;
+    for (int lane = 0; lane < Width; ++lane) {
+      CAPTURE(lane);
+      const Real a = two.a[lane], b = two.b[lane];
+      CHECK(select(x < y, x, y)[lane] == (a < b ? a : b));
+      CHECK(select(x > 1.0, x, 0.0)[lane] == (a > Real(1) ? a : Real(0)));
+      CHECK(select(x <= 0.5, 7.0, y)[lane] == (a <= Real(0.5) ? Real(7) : b));
+      CHECK((x >= 0.5)[lane]);
+      CHECK((x < y && x > 1.0)[lane] == (a < b && a > Real(1)));
+      CHECK((x < y || x > 1.0)[lane] == (a < b || a > Real(1)));
+      CHECK((!(x < y))[lane] == !(a < b));
+    }
+  });
+}
+
+TEST_CASE("the functions of a pack are those of a number, to rounding") {
+  for_every_pack([]<class Real, int Width>() {
+    CAPTURE(sizeof(Real));
+    CAPTURE(Width);
+    const Two<Real, Width> two;
+    for (int lane = 0; lane < Width; ++lane) {
+      CAPTURE(lane);
+      const double a = static_cast<double>(two.a[lane]), tolerance = 4.0 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+      const auto close = [&](Real result, double expected) {
+        return std::fabs(static_cast<double>(result) - expected) <= tolerance * (1.0 + std::fabs(expected));
+      };
+      CHECK(close(sqrt(two.x)[lane], std::sqrt(a)));
+      CHECK(close(exp(two.x)[lane], std::exp(a)));
+      CHECK(close(log(two.x)[lane], std::log(a)));
+      CHECK(close(pow(two.x, 1.7)[lane], std::pow(a, 1.7)));
+      CHECK(close(dmp::power(two.x, 5.0)[lane], std::pow(a, 5.0)));
+    }
+    CHECK(static_cast<double>(sqrt(dmp::Pack<Real, Width>(0.0))[0]) == 0.0);
+  });
+}
+
+TEST_CASE("the sum over the lanes is the same every time: halves first") {
+  const double values[4] = {1e16, 1.0, -1e16, 1.0};
+  CHECK(sum(dmp::Pack<double, 4>::load(values)) == 2.0);  // (1e16 - 1e16) + (1 + 1); from left to right it would be 1
+  CHECK(sum(dmp::Pack<float, 8>(0.5)) == 4.0);
+  CHECK(sum(dmp::Pack<double, 1>(3.0)) == 3.0);
+  CHECK(dmp::sum(3.0) == 3.0);
+}
+
+TEST_CASE("a transposing load brings every field of every record to its lane") {
+  for_every_pack([]<class Real, int Width>() {
+    CAPTURE(sizeof(Real));
+    CAPTURE(Width);
+    constexpr int stride = 2 * Width, records = 37, count = stride - 1;  // the last field of the record is padding
+    std::vector<Real> table(static_cast<std::size_t>(stride * records));
+    for (std::size_t n = 0; n < table.size(); ++n) table[n] = static_cast<Real>(n);
+    std::uint32_t index[Width];
+    for (int lane = 0; lane < Width; ++lane) index[lane] = static_cast<std::uint32_t>((5 + 11 * lane) % records);
+    dmp::Pack<Real, Width> fields[stride];
+    fields[count] = -1.0;
+    dmp::load_transposed<count>(table.data(), stride, index, fields);
+    for (int field = 0; field < count; ++field)
+      for (int lane = 0; lane < Width; ++lane)
+        CHECK(fields[field][lane] == static_cast<Real>(index[lane] * stride + static_cast<unsigned>(field)));
+    CHECK(fields[count][0] == static_cast<Real>(-1));  // no field beyond the count is touched
+  });
+}
