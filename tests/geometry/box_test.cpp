@@ -35,11 +35,13 @@ TEST_CASE("box: wrap keeps the bits of what is inside, and never returns the upp
   const Box<1> box{.lower = {0.1}, .upper = {0.7}, .periodic = {true}};
   for (const double x : {0.1, 0.3, std::nextafter(0.7, 0.0)}) CHECK(box.wrap(Vector<1>{x})[0] == x);
   CHECK(box.wrap(Vector<1>{0.7})[0] == 0.1);
-  for (double step = 1e-3; step > 1e-300; step *= 1e-9) {
-    const double image = box.wrap(Vector<1>{0.1 - step})[0];
+  const Box<1> from_zero{.lower = {0.0}, .upper = {1.0}, .periodic = {true}};
+  for (double step = 1e-3; step > 1e-300; step *= 1e-9) {  // 1 - 1e-30 rounds to 1
     CAPTURE(step);
-    CHECK(box.contains(Vector<1>{image}));
+    CHECK(from_zero.contains(from_zero.wrap(Vector<1>{-step})));
   }
+  const Box<1> almost_to_zero{.lower = {-1.0}, .upper = {1e-20}, .periodic = {true}};  // its length rounds to 1
+  CHECK(almost_to_zero.wrap(Vector<1>{0.0})[0] == 0.0);
   CHECK(std::isnan(box.wrap(Vector<1>{std::numeric_limits<double>::quiet_NaN()})[0]));
   CHECK_FALSE(std::isfinite(box.wrap(Vector<1>{std::numeric_limits<double>::infinity()})[0]));
 }

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -11,6 +12,17 @@ using dmp::ParameterError;
 using dmp::Vector;
 
 namespace {
+
+/// A lattice of a user, with its site anywhere in the cell.
+struct OneSite {
+  static constexpr int dimension = 1;
+  double spacing, fraction;
+  Vector<1> origin = Vector<1>::Zero();
+  [[nodiscard]] Vector<1> cell() const { return Vector<1>{spacing}; }
+  [[nodiscard]] std::array<Vector<1>, 1> sites() const { return {Vector<1>{fraction}}; }
+  [[nodiscard]] double nearest_distance() const { return spacing; }
+};
+void validate(const OneSite&) {}
 
 template <int Dim>
 std::vector<Vector<Dim>> sorted(std::vector<Vector<Dim>> x) {
@@ -56,6 +68,17 @@ TEST_CASE("fill: a box of whole cells holds exactly its share of points for a th
   }
 }
 
+TEST_CASE("fill: no point is lost to rounding, not even one that fills its cuboid, with its site next to either face of the cell") {
+  for (const double fraction : {0.0, 1.0 - std::ldexp(1.0, -33)})
+    for (int k = 1; k <= 500; ++k) {
+      const double spacing = 1.0 / (2 * k + 1), point = std::fma(std::ldexp(1.0, 19) + k + fraction, spacing, 0.0);
+      CAPTURE(fraction);
+      CAPTURE(k);
+      const Cuboid<1> within{.lower = {point}, .upper = {std::nextafter(point, 2.0 * point)}};
+      CHECK(fill(OneSite{.spacing = spacing, .fraction = fraction}, within).positions == std::vector<Vector<1>>{Vector<1>{point}});
+    }
+}
+
 TEST_CASE("fill: the order is fixed, x running fastest, and spacing and volume are those of the lattice") {
   const Ball<3> around_all{.centre = {1.5, 1, 1}, .radius = 10.0};
   const auto points = fill(Cubic<3>{.spacing = 1.0}, {.lower = {0, 0, 0}, .upper = {3, 2, 2}}, around_all);
@@ -84,7 +107,8 @@ TEST_CASE("fill: what cannot be filled is refused: nothing inside, no bounds, fa
   CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 9.5367431640625e-07}, unit, ball),  // 2^-20
                        "geometry::fill: the bounding cuboid must hold at most 2^32 lattice cells, got 1099513724929", ParameterError);
   CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.5}, {.lower = {1e300, 0}, .upper = {2e300, 1}}, ball),
-                       "geometry::fill: the bounding cuboid must lie within 2^52 cells of the lattice's origin, got 4e+300", ParameterError);
+                       "geometry::fill: the bounding cuboid must lie within 2^52 cells of the lattice's origin, got 4e+300",
+                       ParameterError);
   CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = -1.0}, unit, ball), "geometry::Cubic: spacing must be finite and > 0 m, got -1",
                        ParameterError);
   CHECK_THROWS_WITH_AS(fill_with(Cubic<2>{.spacing = 0.1}, {.lower = {0, 1}, .upper = {1, 0}}, ball),

@@ -27,7 +27,8 @@ TEST_CASE("point file: blanks, tabs and commas separate, '#' comments, line ends
   const test::TemporaryFolder folder;
   const std::string path = (folder / "points.txt").string();
   test::write_bytes(path,
-                    "# two numbers\n1 2\n  3\t4 # comment\n5,6\r\n\n7 , 8\n  # only a comment\n+9\t-1e-3   \n0.1,1e300\n4.9e-324 -0\n\t\n.5 5.");
+                    "# two numbers\n1 2\n  3\t4 # comment\n5,6\r\n\n7 , 8\n  # only a comment\n+9\t-1e-3   \n"
+                    "0.1,1e300\n4.9e-324 -0\n\t\n.5 5.");
   const auto points = read_points<2>(path);
   const double smallest = std::numeric_limits<double>::denorm_min();
   const std::vector<Vector<2>> expected{{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, -1e-3}, {0.1, 1e300}, {smallest, 0}, {0.5, 5}};

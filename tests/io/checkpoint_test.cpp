@@ -133,7 +133,7 @@ TEST_CASE("checkpoint: random bytes in place of any eight, be they a length of u
   const test::TemporaryFolder folder;
   const auto path = folder / "checkpoint";
   const std::string whole = small_checkpoint(path);
-  for (const std::uint64_t number : {0xFFFFFFFFFFFFFFFFu, 0xFFFFFFFFFFFFFFF8u, 0x8000000000000000u, 0x2000000000000000u, 0x0123456789ABCDEFu})
+  for (const std::uint64_t number : {~0ull, ~0ull - 7, 1ull << 63, 1ull << 61, 0x0123456789ABCDEFull})
     for (std::size_t at = 0; at + sizeof number <= whole.size(); ++at) {
       std::string damaged = whole;
       std::memcpy(damaged.data() + at, &number, sizeof number);

@@ -49,7 +49,7 @@ constexpr void for_each_field(Fields<Field...>, Function&& function) {
 }
 
 /// The fields that laws read and write. Each has a name (output, errors), a unit, and a `Slot`: the member through which a law sees
-/// it (`i.density`). A law may bring fields of its own: any struct of this shape will do.
+/// it (`i.density`). A state that must stay > 0 says `is_positive`; a rate says what it `integrates`. A law may bring fields of its own: any struct of this shape will do.
 namespace field {
 
 struct Position {
@@ -101,7 +101,7 @@ struct Mass {  // one value per group
 };
 struct Density {
   static constexpr std::string_view name = "density", unit = "kg/m^3";
-  static constexpr bool is_vector = false;
+  static constexpr bool is_vector = false, is_positive = true;
   template <int Dim, class T>
   struct Slot {
     T density;

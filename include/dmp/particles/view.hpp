@@ -13,6 +13,7 @@ struct ColumnView {
   std::string_view name, unit;
   int components;            ///< numbers per particle
   std::span<double> values;  ///< components * particles
+  bool is_positive;          ///< only values > 0 make sense
 };
 
 /// A group without its type.

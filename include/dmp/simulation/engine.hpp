@@ -133,21 +133,23 @@ class Engine {
     forces(time, 0.0);
   }
 
-  /// One step of length `dt` [s] that ends at `time` [s].
-  void step(double dt, double time) {
-    double slack = skin_;
+  /// First part of a step of length `dt` [s] that ends at `time` [s]: everything moves. Returns whether neighbour lists are worn out, so
+  /// that build_lists must be called before `finish_step`.
+  [[nodiscard]] bool begin_step(double dt, double time) {
     if constexpr (has_substeps)
       begin_with_substeps(dt, time);
     else
       for_each_group([&](auto& g) { begin(g, dt, time); });
-    if constexpr (has_pairs) {
+    bool worn = false;
+    if constexpr (has_pairs)
       for_each_item([&](const auto& active) {
         using I = std::remove_cvref_t<decltype(active.item)>;
-        if constexpr (is_interaction<I>)
-          slack = std::min(slack, skin_ - moved_[index_of<typename I::A>()] - moved_[index_of<typename I::B>()]);
+        if constexpr (is_interaction<I>) worn = worn || !(moved_[index_of<typename I::A>()] + moved_[index_of<typename I::B>()] <= skin_);
       });
-      if (slack < 0.0) build_lists();
-    }
+    return worn;
+  }
+  /// Second part: forces at the new positions, and the end of the step.
+  void finish_step(double dt, double time) {
     forces(time, dt);
     for_each_group([&](auto& g) { end(g, dt); });
   }

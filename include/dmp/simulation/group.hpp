@@ -90,7 +90,8 @@ class Group {
     for_each_field(typename Layout::columns{}, [&]<class Field>(Field) {
       auto& values = columns.template get<Field>();
       constexpr int components = Field::is_vector ? Dim : 1;
-      result.columns.push_back({Field::name, Field::unit, components, {reinterpret_cast<double*>(values.data()), components * values.size()}});
+      result.columns.push_back({Field::name, Field::unit, components, {reinterpret_cast<double*>(values.data()), components * values.size()},
+                                requires { Field::is_positive; }});
     });
     return result;
   }

@@ -126,7 +126,11 @@ class Scene {
         }
         ++clock_.step;
         clock_.time = base_time + static_cast<double>(clock_.step - base_step) * dt;
-        engine_.step(dt, clock_.time);
+        if (engine_.begin_step(dt, clock_.time)) {
+          check();
+          engine_.build_lists();
+        }
+        engine_.finish_step(dt, clock_.time);
         if (clock_.step % options.check_every == 0) check();
         observe(dt);
         bar.show(clock_.time);
@@ -172,6 +176,7 @@ class Scene {
 
   void prepare() {
     if (prepared_) return;
+    check_input();
     engine_.evaluate(clock_.time);
     reject_overlaps();
     prepared_ = true;
@@ -329,9 +334,7 @@ class Scene {
     engine_.for_each_group([&result](auto& g) { result.push_back(g.view()); });
     return result;
   }
-  /// All values finite, all particles in the box; then this state is the last good one.
-  void check() {
-    const auto groups = views();
+  [[nodiscard]] Fault fault() {
     std::array<double, Dim> lower, upper;
     for (int d = 0; d < Dim; ++d) {
       const auto k = static_cast<std::size_t>(d);
@@ -339,8 +342,34 @@ class Scene {
       lower[k] = open ? -std::numeric_limits<double>::infinity() : engine_.box().lower[d];
       upper[k] = open ? std::numeric_limits<double>::infinity() : engine_.box().upper[d];
     }
-    check_state(groups, lower, upper, clock_);
-    if (!rescue_path_.empty()) last_good_.take(groups, clock_);
+    return find_fault(views(), lower, upper);
+  }
+  /// Nothing wrong: then this state is the last good one.
+  void check() {
+    const Fault found = fault();
+    if (!found.what.empty())
+      throw SimulationError("a value " + found.what, {clock_.time, clock_.step, found.group, found.particle, found.field, found.value});
+    if (!rescue_path_.empty()) last_good_.take(views(), clock_);
+  }
+  /// The same before anything is computed.
+  void check_input() {
+    const auto groups = views();
+    for (std::size_t a = 0; a < groups.size(); ++a)
+      for (std::size_t b = a + 1; b < groups.size(); ++b)
+        if (groups[a].name == groups[b].name) throw ParameterError("scene: the names of groups must differ, got " + groups[a].name + " twice");
+    const Fault found = fault();
+    if (!found.what.empty())
+      throw ParameterError("scene: group " + found.group + ", particle " + std::to_string(found.particle) + ": " + found.field + " " + found.what + ", got " + to_text(found.value));
+    engine_.for_each_item([this](const auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_interaction<I>) {
+        const auto& a = engine_.template group<typename I::A>();
+        const auto& b = engine_.template group<typename I::B>();
+        const double spacing = std::max(a.spacing, b.spacing);
+        if (active.item.cutoff() < (1.0 - 1e-9) * spacing)
+          throw ParameterError("scene: support radius (cut-off) of " + a.name + " and " + b.name + " must be >= their spacing " + to_text(spacing) + " m, got " + to_text(active.item.cutoff()));
+      }
+    });
   }
   void rescue() {
     if (!last_good_.empty()) write_checkpoint(rescue_path_, signature(), views(), last_good_);

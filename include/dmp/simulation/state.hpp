@@ -28,27 +28,40 @@ struct Clock {
   return text;
 }
 
-/// Throws SimulationError for the first value that is not finite, and the first particle outside lower .. upper [m] (infinite bounds: none).
-inline void check_state(const std::vector<particles::GroupView>& groups, std::span<const double> lower, std::span<const double> upper, const Clock& clock) {
+/// What is wrong with a state: the first value that is not finite, or not positive though it must be, and the first particle outside
+/// lower .. upper [m] (infinite bounds: none). Empty `what` when nothing is.
+struct Fault {
+  std::string what;
+  std::string group;
+  std::int64_t particle = -1;
+  std::string field;
+  double value = 0.0;
+};
+
+[[nodiscard]] inline Fault find_fault(const std::vector<particles::GroupView>& groups, std::span<const double> lower, std::span<const double> upper) {
   for (const auto& group : groups) {
-    if (!group.evolves) continue;
-    const auto fail = [&](const char* what, const particles::ColumnView& column, std::size_t k) {
-      throw SimulationError(what, {clock.time, clock.step, group.name, static_cast<std::int64_t>(group.id[k / static_cast<std::size_t>(column.components)]),
-                                   std::string(column.name), column.values[k]});
+    const auto fault = [&](const char* what, const particles::ColumnView& column, std::size_t k) {
+      return Fault{what, group.name, static_cast<std::int64_t>(group.id[k / static_cast<std::size_t>(column.components)]), std::string(column.name), column.values[k]};
     };
     for (const auto& column : group.columns) {
-      double probe = 0.0;  // stays 0 as long as all values are finite
-      for (const double value : column.values) probe += 0.0 * value;
-      if (probe == 0.0) continue;
-      for (std::size_t k = 0; k < column.values.size(); ++k)
-        if (!(column.values[k] - column.values[k] == 0.0)) fail("a value is not finite", column, k);
+      double probe = 0.0, least = 1.0;  // probe stays 0 as long as all values are finite
+      for (const double value : column.values) {
+        probe += 0.0 * value;
+        least = value < least ? value : least;
+      }
+      if (probe == 0.0 && (!column.is_positive || least > 0.0)) continue;
+      for (std::size_t k = 0; k < column.values.size(); ++k) {
+        if (!(column.values[k] - column.values[k] == 0.0)) return fault("must be finite", column, k);
+        if (column.is_positive && !(column.values[k] > 0.0)) return fault("must be > 0", column, k);
+      }
     }
     const auto& position = group.columns.front();
     for (std::size_t k = 0; k < position.values.size(); ++k) {
       const std::size_t d = k % lower.size();
-      if (!(position.values[k] >= lower[d] && position.values[k] <= upper[d])) fail("a particle left the box", position, k);
+      if (!(position.values[k] >= lower[d] && position.values[k] <= upper[d])) return fault("must lie in the box", position, k);
     }
   }
+  return {};
 }
 
 /// A copy of all columns.

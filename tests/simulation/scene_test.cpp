@@ -1,0 +1,187 @@
+#include <array>
+#include <cstring>
+#include <doctest/doctest.h>
+
+#include "io/temporary_folder.hpp"
+#include "scenes.hpp"
+
+using namespace test;
+
+namespace {
+
+template <class Scene>
+Vector<2> momentum(const Scene& scene) {
+  Vector<2> sum = Vector<2>::Zero();
+  for (const auto& v : scene.template group<Water>().template get<field::Velocity>()) sum += v;
+  return scene.template group<Water>().mass * sum;
+}
+
+template <class Scene>
+double kinetic_energy(const Scene& scene) {
+  double sum = 0.0;
+  for (const auto& v : scene.template group<Water>().template get<field::Velocity>()) sum += 0.5 * v.squaredNorm();
+  return scene.template group<Water>().mass * sum;
+}
+
+/// All columns in the order of the ids, as bits.
+template <class Scene>
+std::vector<double> bits(Scene& scene) {
+  std::vector<double> result;
+  auto& water = scene.template group<Water>();
+  std::vector<std::size_t> row(water.size());
+  for (std::size_t k = 0; k < water.size(); ++k) row[water.id[k]] = k;
+  const auto view = water.view();
+  for (const auto& column : view.columns)
+    for (const std::size_t k : row)
+      for (int d = 0; d < column.components; ++d) result.push_back(column.values[k * static_cast<std::size_t>(column.components) + static_cast<std::size_t>(d)]);
+  return result;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("a periodic vortex keeps its momentum and loses kinetic energy at every observation") {
+  auto scene = vortex({});
+  double energy = kinetic_energy(scene), rises = 0.0;
+  int looks = 0;
+  scene.every(0.01, [&](const auto& s) {
+    rises = std::max(rises, kinetic_energy(s) - energy);
+    energy = kinetic_energy(s);
+    ++looks;
+  });
+  const auto report = scene.run({.until = 0.1});
+  CHECK(looks == 11);
+  CHECK(report.limit.bound_by == "sound");
+  CHECK(momentum(scene).norm() < 1e-13);  // of a total of |m v| of order 1
+  CHECK(rises <= 0.0);
+  CHECK(energy == doctest::Approx(0.25 * std::exp(-16.0 * std::numbers::pi * std::numbers::pi * 0.01 * scene.time())).epsilon(0.05));
+}
+
+TEST_CASE("the same flow seen from a moving frame: positions shift with the frame, velocities differ by it") {
+  auto at_rest = vortex({}), moving = vortex({});
+  const Vector<2> frame(1.0, 0.5);
+  for (auto& v : moving.group<Water>().get<field::Velocity>()) v += frame;
+  const RunOptions options{.until = 0.05, .time_step = 5e-4};
+  at_rest.run(options);
+  moving.run(options);
+  const auto a = bits(at_rest), b = bits(moving);
+  const std::size_t count = at_rest.particles();
+  double position_error = 0.0, velocity_error = 0.0;
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t d = 0; d < 2; ++d) {
+      double shift = b[2 * k + d] - a[2 * k + d] - frame[static_cast<int>(d)] * at_rest.time();
+      position_error = std::max(position_error, std::fabs(shift - std::round(shift)));
+      velocity_error = std::max(velocity_error, std::fabs(b[2 * (count + k) + d] - a[2 * (count + k) + d] - frame[static_cast<int>(d)]));
+    }
+  CHECK(position_error < 1e-11);
+  CHECK(velocity_error < 1e-10);
+}
+
+TEST_CASE("1, 2 and 4 threads give the same bits") {
+  std::array<std::vector<double>, 3> results;
+  const std::array<int, 3> threads{1, 2, 4};
+  const int before = available_threads();
+  for (std::size_t k = 0; k < threads.size(); ++k) {
+    use_threads(threads[k]);
+    auto scene = vortex({.columns = 72});  // 5184 particles: enough that each of four threads gets a range of its own
+    scene.run({.until = 0.02});
+    results[k] = bits(scene);
+  }
+  use_threads(before);
+  CHECK(same_bits(results[0], results[1]));
+  CHECK(same_bits(results[0], results[2]));
+}
+
+TEST_CASE("a restart from a checkpoint continues bit for bit") {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "vortex.checkpoint").string();
+  auto through = vortex({});
+  through.run({.until = 0.03});
+  through.checkpoint(path);
+  auto continued = vortex({});
+  continued.restart(path);
+  CHECK(continued.time() == through.time());
+  CHECK(continued.step() == through.step());
+  through.run({.until = 0.08});
+  continued.run({.until = 0.08});
+  CHECK(continued.step() == through.step());
+  CHECK(same_bits(bits(through), bits(continued)));
+}
+
+TEST_CASE("the velocity of a frozen wall drags the fluid though the wall stays in place (FS-2); at rest it holds the fluid back") {
+  const double spacing = 0.05;
+  const auto final_speed = [&](double wall_speed) {
+    const Flow law{.kernel = {.support_radius = 2.6 * spacing}};
+    const geometry::Cubic<2> lattice{.spacing = spacing};
+    auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
+        geometry::Box<2>{.lower = {0.0, -0.2}, .upper = {0.5, 0.6}, .periodic = {true, false}},
+        group<Water>("water", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {0.5, 0.4}}), spacing * spacing),
+        group<Wall>("wall", Frozen<2>{.wall_velocity = {wall_speed, 0.0}},
+                    geometry::fill(lattice, {.lower = {0.0, -0.15}, .upper = {0.5, 0.55}},
+                                   !geometry::Cuboid<2>{.lower = {-1.0, 0.0}, .upper = {1.0, 0.4}}), spacing * spacing),
+        interaction<Water, Water>(law), interaction<Water, Wall>(law),
+        material<Water, Wall>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 5.0}, rheology::Constant{.dynamic_viscosity = 0.5}));
+    scene.engine().for_each_group([](auto& g) { g.template set<field::Density>([](const auto&) { return 1.0; }); });
+    const auto wall_before = scene.template group<Wall>().positions();
+    const auto density_before = scene.template group<Wall>().template get<field::Density>();
+    scene.run({.until = 0.5});  // many times H^2/nu
+    CHECK(scene.template group<Wall>().positions() == wall_before);
+    CHECK(scene.template group<Wall>().template get<field::Density>() == density_before);
+    double slowest = 1e30;
+    for (const auto& v : scene.template group<Water>().template get<field::Velocity>()) slowest = std::min(slowest, v[0]);
+    return slowest;
+  };
+  CHECK(final_speed(0.2) == doctest::Approx(0.2).epsilon(1e-3));
+  CHECK(final_speed(0.0) == 0.0);
+}
+
+TEST_CASE("the sound bound: stable at 0.95 of it; a step beyond every bound is refused, naming the law, before anything is computed") {
+  auto scene = vortex({});
+  const double bound = scene.step_limit().stable_time_step;
+  CHECK(scene.step_limit().stability_bound_by == "sound");
+  CHECK_NOTHROW(scene.run({.until = 0.2, .time_step = 0.95 * bound}));
+  CHECK(kinetic_energy(scene) < 0.25);
+  auto other = vortex({});
+  CHECK_THROWS_WITH_AS(other.run({.until = 0.2, .time_step = 1.5 * bound}), doctest::Contains("the bound of sound, got"), ParameterError);
+  CHECK(other.step() == 0);
+}
+
+TEST_CASE("the viscosity bound: stable at 0.95 of it, with a viscosity that makes it the binding one") {
+  auto scene = vortex({.viscosity = 1.0});
+  const auto limit = scene.step_limit();
+  CHECK(limit.stability_bound_by == "viscosity");
+  double energy = kinetic_energy(scene);
+  CHECK_NOTHROW(scene.run({.until = 400.0 * limit.stable_time_step, .time_step = 0.95 * limit.stable_time_step}));
+  CHECK(kinetic_energy(scene) < 1e-3 * energy);
+}
+
+TEST_CASE("a driven group follows its motion, and pushes what it meets") {
+  struct Piston {
+    Vector<2> position(const Vector<2>& start, double time) const { return start + Vector<2>(0.1 * time, 0.0); }
+    Vector<2> velocity(const Vector<2>&, double) const { return {0.1, 0.0}; }
+  };
+  const double spacing = 0.05;
+  const geometry::Cubic<2> lattice{.spacing = spacing};
+  const Flow law{.kernel = {.support_radius = 2.6 * spacing}};
+  auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
+      geometry::Box<2>{.lower = {-1.0, 0.0}, .upper = {3.0, 0.5}, .periodic = {false, true}},
+      group<Water>("water", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {0.5, 0.5}}), spacing * spacing),
+      group<Wall>("piston", particles::Driven<Piston>{}, geometry::fill(lattice, {.lower = {-0.15, 0.0}, .upper = {0.0, 0.5}}), spacing * spacing),
+      interaction<Water, Water>(law), interaction<Water, Wall>(law),
+      material<Water, Wall>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 2.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
+  scene.engine().for_each_group([](auto& g) { g.template set<field::Density>([](const auto&) { return 1.0; }); });
+  const auto start = scene.group<Wall>().positions();
+  scene.run({.until = 1.0});
+  double error = 0.0, leftmost = 1e30, speed = 0.0;
+  auto& piston = scene.group<Wall>();
+  for (std::size_t k = 0; k < piston.size(); ++k)
+    error = std::max(error, (piston.positions()[k] - start[piston.id[k]] - Vector<2>(0.1 * scene.time(), 0.0)).norm());
+  for (const auto& x : scene.group<Water>().positions()) leftmost = std::min(leftmost, x[0]);
+  for (const auto& v : scene.group<Water>().get<field::Velocity>()) speed += v[0] / static_cast<double>(scene.group<Water>().size());
+  CHECK(error < 1e-12);
+  CHECK(leftmost > 0.1 * scene.time());
+  CHECK(speed == doctest::Approx(0.1).epsilon(0.2));
+}
