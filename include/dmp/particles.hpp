@@ -1,7 +1,6 @@
 #pragma once
 // Groups and their storage.
 #include <dmp/particles/columns.hpp>   // Structure of arrays: one column per field.
-#include <dmp/particles/ghosts.hpp>    // Images of particles behind periodic faces.
 #include <dmp/particles/mobility.hpp>  // Mobile, Stationary, Frozen, Driven.
 #include <dmp/particles/records.hpp>   // What laws read of a particle, packed for vector loads.
 #include <dmp/particles/view.hpp>      // Groups and columns without their types, for output and checks.

@@ -14,7 +14,7 @@ endif()
 set(expected "${CMAKE_MATCH_1}")
 
 set(ENV{LC_ALL} C)  # plain quotes
-execute_process(COMMAND ${command} -fno-diagnostics-show-caret ${source} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+execute_process(COMMAND ${command} ${source} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(result EQUAL 0)
   message(FATAL_ERROR "${source} compiles, but must fail with: ${expected}")
 endif()

@@ -18,16 +18,19 @@ struct Lucy {
 
   template <class T>
   [[nodiscard]] T value(const T& r) const noexcept {
-    const T q = r * (1.0 / support_radius), rest = max(1.0 - q, 0.0);
-    return (1.0 / volume()) * (1.0 + 3.0 * q) * cube(rest);
+    const T rest = one_minus_q(r);
+    return (1.0 / volume()) * (4.0 - 3.0 * rest) * cube(rest);
   }
   template <class T>
   [[nodiscard]] T radial_factor(const T& r) const noexcept {
-    const T rest = max(1.0 - r * (1.0 / support_radius), 0.0);
-    return (-12.0 / (volume() * square<double>(support_radius))) * square(rest);
+    return (-12.0 / (volume() * square<double>(support_radius))) * square(one_minus_q(r));
   }
 
  private:
+  template <class T>
+  [[nodiscard]] T one_minus_q(const T& r) const noexcept {  // exactly 0 at the support
+    return max(support_radius - r, 0.0) * (1.0 / support_radius);
+  }
   [[nodiscard]] double volume() const noexcept {  // s
     const double h = support_radius;
     return Dim == 1 ? 4.0 * h / 5.0 : Dim == 2 ? std::numbers::pi * h * h / 5.0 : 16.0 * std::numbers::pi * h * h * h / 105.0;

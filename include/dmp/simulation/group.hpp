@@ -10,7 +10,7 @@
 #include <dmp/core/threads.hpp>
 #include <dmp/neighbours/cell_grid.hpp>
 #include <dmp/particles/columns.hpp>
-#include <dmp/particles/ghosts.hpp>
+#include <dmp/neighbours/ghosts.hpp>
 #include <dmp/particles/records.hpp>
 #include <dmp/particles/view.hpp>
 #include <dmp/simulation/composition.hpp>
@@ -121,7 +121,7 @@ class Group {
   std::vector<std::uint32_t> id;
   View<Dim, double, typename Layout::constants> constants;
   Records records;
-  particles::Ghosts<Dim> ghosts;
+  neighbours::Ghosts<Dim> ghosts;
   neighbours::CellGrid<Dim> grid;
   std::vector<Vector<Dim>> at_list_build;  ///< positions when the neighbour lists were built
   Ranges ranges;                           ///< division of the particles among the threads

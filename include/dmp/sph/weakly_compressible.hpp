@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <dmp/core/field.hpp>
+#include <dmp/core/require.hpp>
 #include <dmp/diffusion/concept.hpp>
 #include <dmp/diffusion/none.hpp>
 #include <dmp/kernel/concept.hpp>
@@ -12,6 +13,14 @@
 
 namespace dmp::sph {
 
+namespace detail {
+template <class Law>
+consteval int dimension_or(int dimension) {
+  if constexpr (requires { Law::dimension; }) return Law::dimension;
+  return dimension;
+}
+}  // namespace detail
+
 /// Weakly compressible SPH: continuity and momentum of a barotropic fluid, fused in one pass over the pairs.
 ///   drho_i/dt =  sum_j m_j F (r_ij . v_ij)                                                      [kg/m^3/s]
 ///   dv_i/dt   = -sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2 + Pi_ij + R_ij) F r_ij + sum_j m_j kappa_ij F v_ij  [m/s^2]
@@ -22,6 +31,7 @@ template <class K, class V = viscosity::None, class D = diffusion::None, class C
 struct WeaklyCompressible {
   static_assert(kernel::explain_kernel<K>() && viscosity::explain_viscosity<V>() && diffusion::explain_diffusion<D>() &&
                 tensile::explain_tensile_correction<C>());
+  static_assert(detail::dimension_or<V>(K::dimension) == K::dimension, "dmp: sph::WeaklyCompressible: the viscosity law is made for another dimension than the kernel");
   using reads = unite<Fields<field::Density, field::PressureTerm>, typename V::reads, typename D::reads, typename C::reads>;
   using writes = Fields<field::Acceleration, field::DensityRate>;
   static constexpr bool uses_velocity = true;
@@ -55,6 +65,8 @@ struct WeaklyCompressible {
     if (state.acceleration > 0.0) limit.resolve(0.25 * std::sqrt(h / state.acceleration), "acceleration");
     const double rate = viscosity.damping_rate(state.kinematic_viscosity, h, kernel::radial_factor_integral(kernel), K::dimension);
     if (rate > 0.0) limit.require_below(state.damping_limit / rate, "viscosity");
+    if constexpr (requires { diffusion.damping_rate(h, h); })
+      limit.require_below(state.damping_limit / diffusion.damping_rate(h, kernel::radial_factor_integral(kernel)), "density diffusion");
   }
 };
 
@@ -64,6 +76,9 @@ void validate(const WeaklyCompressible<K, V, D, C>& law) {
   validate(law.viscosity);
   validate(law.diffusion);
   validate(law.tensile);
+  if constexpr (requires { law.tensile.spacing; })
+    require(law.tensile.spacing < law.kernel.support_radius, "sph::WeaklyCompressible: spacing of the tensile correction must be < the support radius [m]",
+            law.tensile.spacing);
 }
 
 }  // namespace dmp::sph

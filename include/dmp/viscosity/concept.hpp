@@ -48,6 +48,8 @@ consteval bool explain_viscosity() {
                 "dmp: not a ViscosityLaw: no `double damping_rate(nu, support_radius, radial_factor_integral, dimension) const` [1/s]");
   static_assert(requires(const V v) { validate(v); },
                 "dmp: not a ViscosityLaw: no `void validate(const V&)`, which throws ParameterError on bad parameters");
+  static_assert((std::is_empty_v<V> && V::reads::count == 0) || ActsAlongSeparation<V> || ActsAlongVelocity<V>,
+                "dmp: not a ViscosityLaw: neither `T along_separation(pair, i, j, support_radius) const` [Pa m^6/kg^2] nor `T along_velocity(pair, i, j) const` [m^5/(kg s)]");
   return ViscosityLaw<V>;
 }
 

@@ -14,7 +14,7 @@ struct ArithmeticMean {
 struct HarmonicMean {
   template <class T>
   [[nodiscard]] static T twice(const T& a, const T& b) noexcept {
-    return 4.0 * a * b / (a + b + 1e-300);
+    return 4.0 * a * b / (a + b + 1e-30);
   }
 };
 

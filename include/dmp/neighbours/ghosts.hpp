@@ -6,7 +6,7 @@
 #include <dmp/core/vector.hpp>
 #include <dmp/geometry/box.hpp>
 
-namespace dmp::particles {
+namespace dmp::neighbours {
 
 /// Copies of particles that a sweep reads as neighbours but does not own: the images behind the periodic faces of the box. Pair loops know
 /// neither boxes nor images. Particles owned by other processes would be further entries of the same kind.
@@ -43,4 +43,4 @@ struct Ghosts {
   }
 };
 
-}  // namespace dmp::particles
+}  // namespace dmp::neighbours
