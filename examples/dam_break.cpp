@@ -135,7 +135,7 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
   tank.rescue_to((folder / (dam.name + "_last_good.checkpoint")).string()).progress();
 
   // Run
-  result.add(tank.run({.until = dam.end_time}));
+  result.add(tank.run({.until = dam.end_time, .safety = std::getenv("SAFETY") ? std::atof(std::getenv("SAFETY")) : 0.3}));
   result.particles += tank.particles();
   result.bytes_per_particle = bytes_per_particle(tank);
   return history;
@@ -168,7 +168,7 @@ Dam<3> reservoir(int deep, double end_time) {
   const Vector<3> layers = Vector<3>::Constant(wall_layers * spacing);
   return {.name = "reservoir", .spacing = spacing,
           .water = fill(lattice, {.lower = {gate, 0.0, 0.0}, .upper = {length, breadth, depth}}),
-          .wall = fill(lattice, {.lower = tank.lower - layers, .upper = {length + layers[0], breadth + layers[1], tank.upper[2]}}, !tank | box),
+          .wall = fill(lattice, {.lower = tank.lower - layers, .upper = {length + layers[0], breadth + layers[1], tank.upper[2]}}, (!tank) | box),
           .tank = tank, .closed_end = length, .width = length - gate, .depth = depth,
           .gauges = {{0.496, 0.5, 0.0}, {0.992, 0.5, 0.0}, {1.488, 0.5, 0.0}, {2.638, 0.5, 0.0}}, .end_time = end_time, .interval = 0.01};
 }

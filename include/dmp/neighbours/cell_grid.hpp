@@ -91,7 +91,7 @@ class CellGrid {
 
   [[nodiscard]] int cell_along(double x, int d) const noexcept {
     const double cell = (x - lower_[d]) * inverse_width_[d];
-    return static_cast<int>(std::clamp(cell, 0.0, cells_[d] - 1.0));
+    return static_cast<int>(std::min(std::max(0.0, cell), cells_[d] - 1.0));  // in this order: a position that is not a number goes to cell 0
   }
   [[nodiscard]] std::size_t cell_of(const Vector<Dim>& x) const noexcept {
     std::size_t cell = static_cast<std::size_t>(cell_along(x[Dim - 1], Dim - 1));

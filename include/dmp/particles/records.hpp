@@ -11,7 +11,7 @@ namespace detail {
 template <int Dim, class T, class... Field, class Function>
 [[gnu::always_inline]] inline void for_each_number(View<Dim, T, Fields<Field...>>& view, Function function) noexcept {
   int slot = 0;
-  const auto one = [&](auto& member) __attribute__((always_inline)) {
+  [[maybe_unused]] const auto one = [&](auto& member) __attribute__((always_inline)) {
     if constexpr (requires { member.component; })
       for (auto& number : member.component) function(slot++, number);
     else

@@ -470,7 +470,7 @@ class Engine {
   }
   template <class... Field, class G, class Particle>
   static void load_state(Fields<Field...>, const G& g, std::size_t i, double dt, Particle& particle) noexcept {
-    const auto one = [&]<class F>(F) {
+    [[maybe_unused]] const auto one = [&]<class F>(F) {
       double value = g.template get<F>()[i];
       for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
         if constexpr (std::is_same_v<typename Rate::integrates, F>) value = Integrator::seen_state(value, g.template get<Rate>()[i], dt);

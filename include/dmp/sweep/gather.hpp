@@ -17,7 +17,7 @@ using Lanes = Pack<double, native_width<double>>;
 namespace detail {
 template <int Dim, class T, class... Field>
 void set_zero(View<Dim, T, Fields<Field...>>& view) noexcept {
-  const auto one = [](auto& member) {
+  [[maybe_unused]] const auto one = [](auto& member) {
     if constexpr (requires { member.component; })
       for (auto& number : member.component) number = T(0.0);
     else
@@ -28,7 +28,7 @@ void set_zero(View<Dim, T, Fields<Field...>>& view) noexcept {
 
 template <int Dim, class... Field>
 [[gnu::always_inline]] inline void add_lanes(View<Dim, double, Fields<Field...>>& to, const View<Dim, Lanes, Fields<Field...>>& from) noexcept {
-  const auto one = [](auto& total, const auto& part) {
+  [[maybe_unused]] const auto one = [](auto& total, const auto& part) {
     if constexpr (requires { part.component; })
       for (int d = 0; d < Dim; ++d) total.component[d] += sum(part.component[d]);
     else

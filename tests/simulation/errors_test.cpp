@@ -1,0 +1,176 @@
+// What a user can get wrong, and what can go wrong in a run: each is told with who, what, the rule and the value.
+#include <limits>
+#include <string>
+#include <doctest/doctest.h>
+
+#include "io/temporary_folder.hpp"
+#include "scenes.hpp"
+
+using namespace test;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// A small pond, with everything in it that a case may spoil.
+struct Pond {
+  double spacing = 0.1, support_radius = 0.26, mass = 0.01, density = 1.0;
+  Vector<2> upper{1.0, 1.0};
+  std::array<bool, 2> periodic{true, true};
+  bool filled_twice = false;
+  std::string wall_name = "wall";
+};
+
+auto pond(const Pond& p) {
+  geometry::Points<2> points = geometry::fill(geometry::Cubic<2>{.spacing = p.spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}});
+  if (p.filled_twice) points = geometry::merge(points, points);
+  const geometry::Points<2> stone{.positions = {{0.5, 0.5}}};
+  auto result = scene<integrator::ExtrapolatedVerlet>(
+      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = p.upper, .periodic = p.periodic}, group<Water>("water", Mobile{}, points, p.mass),
+      group<Wall>(p.wall_name, Frozen<2>{}, stone, 1.0), interaction<Water, Water>(Flow{.kernel = {.support_radius = p.support_radius}}),
+      material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
+  result.template group<Water>().template set<field::Density>([&p](const auto&) { return p.density; });
+  return result;
+}
+
+const RunOptions briefly{.until = 0.01};
+
+/// Forcing that does nothing until `from`, then pulls with `strength`.
+struct Late {
+  double from, strength;
+  [[nodiscard]] Components<2, double> acceleration(const auto& subject) const { return {{subject.time > from ? strength : 0.0, 0.0}}; }
+};
+void validate(const Late&) {}
+
+auto pulled_pond(double from, double strength, bool periodic) {
+  const double spacing = 0.1;
+  auto result = scene<integrator::ExtrapolatedVerlet>(
+      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {periodic, true}},
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), 0.01),
+      interaction<Water, Water>(Flow{.kernel = {.support_radius = 2.6 * spacing}}),
+      material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.01}),
+      forced_by<Water>(Late{from, strength}));
+  result.template group<Water>().template set<field::Density>([](const auto&) { return 1.0; });
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a pond as it should be runs") {
+  auto scene = pond({});
+  CHECK_NOTHROW(scene.run(briefly));
+}
+
+TEST_CASE("particles: spacing, mass, number and place are checked") {
+  CHECK_THROWS_WITH_AS(pond({.spacing = -0.1}), doctest::Contains("spacing must be finite and > 0 m, got -0.1"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.spacing = 0.0}), doctest::Contains("spacing must be finite and > 0 m, got 0"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.mass = 0.0}), doctest::Contains("group water: mass of a particle must be finite and > 0 kg, got 0"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.mass = -1.0}), doctest::Contains("group water: mass of a particle must be finite and > 0 kg, got -1"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.mass = not_a_number}), doctest::Contains("group water: mass of a particle must be finite and > 0 kg, got nan"), ParameterError);
+  CHECK_THROWS_WITH_AS((group<Water>("water", Mobile{}, geometry::Points<2>{}, 1.0)), doctest::Contains("group water: at least one particle is needed"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.wall_name = "water"}).run(briefly), doctest::Contains("the names of groups must differ, got water twice"), ParameterError);
+}
+
+TEST_CASE("laws: bad parameters are named before anything is computed") {
+  CHECK_THROWS_WITH_AS(pond({.support_radius = -1.0}), doctest::Contains("kernel::WendlandC2: support_radius must be finite and > 0 m, got -1"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.support_radius = not_a_number}), doctest::Contains("kernel::WendlandC2: support_radius must be finite and > 0 m, got nan"), ParameterError);
+  CHECK_THROWS_WITH_AS(material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 0.0}), doctest::Contains("eos::Tait: sound_speed_0 must be finite and > 0 m/s, got 0"), ParameterError);
+  CHECK_THROWS_WITH_AS(material<Water>(rheology::Constant{.dynamic_viscosity = -1.0}), doctest::Contains("rheology::Constant: dynamic_viscosity must be finite and >= 0 Pa s, got -1"), ParameterError);
+  CHECK_THROWS_WITH_AS((bonds<Solid, Solid>(bond::Harmonic{.stiffness = -2.0}, {})), doctest::Contains("bond::Harmonic: stiffness must be finite and >= 0 N/m, got -2"), ParameterError);
+  CHECK_THROWS_WITH_AS((interaction<Water, Water>(Flow{.kernel = {.support_radius = 1.0}}).excluding_bonded(0)), doctest::Contains("excluding_bonded must be >= 1 bond, got 0"), ParameterError);
+  CHECK_THROWS_WITH_AS((substepped_bonds<Solid, Solid>(bond::Harmonic{.stiffness = 1.0}, {}, -1)), doctest::Contains("substeps must be >= 0"), ParameterError);
+}
+
+TEST_CASE("scene: support radius against spacing and box, inverted and endless boxes") {
+  CHECK_THROWS_WITH_AS(pond({.support_radius = 0.09}).run(briefly), doctest::Contains("support radius (cut-off) of water and water must be >= their spacing 0.1 m, got 0.09"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.support_radius = 1.0}).run(briefly), doctest::Contains("a periodic box must be longer than support radius and skin (1.1 m), got 1"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.upper = {-1.0, 1.0}}), doctest::Contains("geometry::Box: upper must be > lower in direction x"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.upper = {not_a_number, 1.0}}), doctest::Contains("geometry::Box: upper must be > lower in direction x"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.upper = {std::numeric_limits<double>::infinity(), 1.0}}), doctest::Contains("geometry::Box: a periodic direction must be finite"), ParameterError);
+}
+
+TEST_CASE("input: overlapping fills, values that are not numbers, density not set, particles outside the box") {
+  CHECK_THROWS_WITH_AS(pond({.filled_twice = true}).run(briefly), doctest::Contains("particles must not overlap at the start: water"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.density = 0.0}).run(briefly), doctest::Contains("group water, particle 0: density must be > 0, got 0"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.density = not_a_number}).run(briefly), doctest::Contains("group water, particle 0: density must be finite, got nan"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.upper = {0.9, 1.0}, .periodic = {false, true}}).run(briefly), doctest::Contains("position must lie in the box, got 0.95"), ParameterError);
+  auto scene = pond({});
+  scene.group<Water>().get<field::Velocity>()[7][1] = not_a_number;
+  CHECK_THROWS_WITH_AS(scene.run(briefly), doctest::Contains("group water, particle 7: velocity must be finite, got nan"), ParameterError);
+  auto moved = pond({});
+  moved.group<Water>().positions()[3][0] = -std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH_AS(moved.run(briefly), doctest::Contains("group water, particle 3: position must be finite, got -inf"), ParameterError);
+}
+
+TEST_CASE("run: options out of range") {
+  auto scene = pond({});
+  CHECK_THROWS_WITH_AS(scene.run({.until = -1.0}), doctest::Contains("run until must be finite and not before the present time [s], got -1"), ParameterError);
+  CHECK_THROWS_WITH_AS(scene.run({.until = not_a_number}), doctest::Contains("run until must be finite"), ParameterError);
+  CHECK_THROWS_WITH_AS(scene.run({.until = 1.0, .time_step = -1e-3}), doctest::Contains("time_step must be finite and >= 0 s, got -0.001"), ParameterError);
+  CHECK_THROWS_WITH_AS(scene.run({.until = 1.0, .time_step = 1.0}), doctest::Contains("scene: time_step must be <= "), ParameterError);
+  CHECK_THROWS_WITH_AS(scene.run({.until = 1.0, .safety = 0.0}), doctest::Contains("safety must be > 0 and <= 1, got 0"), ParameterError);
+  CHECK_THROWS_WITH_AS(scene.run({.until = 1.0, .safety = 1.1}), doctest::Contains("safety must be > 0 and <= 1, got 1.1"), ParameterError);
+  CHECK_THROWS_WITH_AS(scene.run({.until = 1.0, .check_every = 0}), doctest::Contains("check_every must be > 0"), ParameterError);
+  CHECK_THROWS_WITH_AS(scene.set_skin(-0.1), doctest::Contains("skin must be finite and >= 0 m, got -0.1"), ParameterError);
+  CHECK_THROWS_WITH_AS(scene.every(0.0, [](const auto&) {}), doctest::Contains("interval of an observer must be finite and > 0 s, got 0"), ParameterError);
+}
+
+TEST_CASE("a run that goes wrong stops with time, step, group, particle, field and value, and leaves the last good state") {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "last_good.checkpoint").string();
+  auto scene = pulled_pond(0.005, 1e3, false);
+  scene.rescue_to(path);
+  bool caught = false;
+  try {
+    scene.run({.until = 1.0, .time_step = 1e-4, .check_every = 10});
+  } catch (const SimulationError& error) {
+    caught = true;
+    CHECK(std::string(error.what()).find("dmp: a value must lie in the box at t = ") == 0);
+    CHECK(error.where.group == "water");
+    CHECK(error.where.field == "position");
+    CHECK(error.where.value > 1.0);
+    CHECK(error.where.particle >= 0);
+    CHECK(error.where.time > 0.005);
+    CHECK(error.where.step == scene.step());
+  }
+  CHECK(caught);
+  auto again = pulled_pond(0.005, 0.0, false);
+  again.restart(path);  // the last good state is whole, and older than the failure by at most the interval of the checks
+  CHECK(again.time() < scene.time());
+  CHECK(again.time() >= scene.time() - 10.5e-4);
+  for (const auto& x : again.group<Water>().positions()) CHECK(again.engine().box().contains(x));
+}
+
+TEST_CASE("a time step that collapses is an error, not an endless run") {
+  auto scene = pulled_pond(0.005, 1e20, true);
+  CHECK_THROWS_WITH_AS(scene.run({.until = 1.0}), doctest::Contains("the time step collapsed (bound of "), SimulationError);
+}
+
+TEST_CASE("a scene that no law bounds needs a time step") {
+  auto scene = simulation::scene<integrator::Leapfrog>(geometry::Box<2>::unbounded(), group<Solid>("dust", Mobile{}, geometry::Points<2>{.positions = {{0.0, 0.0}}}, 1.0));
+  CHECK_THROWS_WITH_AS(scene.run({.until = 1.0}), doctest::Contains("no law of this scene bounds the time step; give one as time_step"), ParameterError);
+  scene.group<Solid>().get<field::Velocity>()[0] = {1.0, -2.0};
+  scene.run({.until = 1.0, .time_step = 0.125});
+  CHECK(scene.group<Solid>().positions()[0] == Vector<2>(1.0, -2.0));  // free flight, exact in binary
+}
+
+TEST_CASE("checkpoints: missing, truncated, foreign, and of other particle numbers") {
+  const TemporaryFolder folder;
+  const std::string path = (folder.path() / "pond.checkpoint").string();
+  auto scene = pond({});
+  CHECK_THROWS_AS(scene.restart(path), io::CheckpointError);
+  scene.checkpoint(path);
+  auto finer = pond({.spacing = 0.05});
+  CHECK_THROWS_WITH_AS(finer.restart(path), doctest::Contains("section water.position must hold 800 numbers, got 200"), io::CheckpointError);
+  auto other = pulled_pond(1.0, 0.0, true);
+  CHECK_THROWS_WITH_AS(other.restart(path), doctest::Contains("2D, extrapolated-velocity Verlet; water (mobile)"), io::CheckpointError);
+  const std::string bytes = read_bytes(path);
+  write_bytes(path, bytes.substr(0, bytes.size() / 2));
+  CHECK_THROWS_AS(scene.restart(path), io::CheckpointError);
+}
+
+TEST_CASE("an output folder that cannot be written to is refused") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "file", "x");
+  CHECK_THROWS_WITH_AS(io::OutputFolder((folder / "file") / "below"), doctest::Contains("below"), ParameterError);
+}
