@@ -137,6 +137,15 @@ struct DynamicViscosity {
   };
   static constexpr auto& of(auto& slots) { return slots.dynamic_viscosity; }
 };
+struct Temperature {
+  static constexpr std::string_view name = "temperature", unit = "K";
+  static constexpr bool is_vector = false, is_positive = true;
+  template <int Dim, class T>
+  struct Slot {
+    T temperature;
+  };
+  static constexpr auto& of(auto& slots) { return slots.temperature; }
+};
 struct SpecificEnergy {
   static constexpr std::string_view name = "specific_energy", unit = "J/kg";
   static constexpr bool is_vector = false;

@@ -1,15 +1,32 @@
 #pragma once
 #include <cmath>
+#include <concepts>
 
 /// Functions of one number that every value type T of a law offers: here for double; for a SIMD pack in core/pack.hpp; a user's
 /// own number type brings overloads in its own namespace. Laws call them unqualified. Branches in a law are `select`, `min`, `max`.
 namespace dmp {
 
-[[nodiscard]] inline double sqrt(double x) noexcept { return std::sqrt(x); }
-[[nodiscard]] inline double exp(double x) noexcept { return std::exp(x); }
-[[nodiscard]] inline double log(double x) noexcept { return std::log(x); }
-[[nodiscard]] inline double abs(double x) noexcept { return std::fabs(x); }
-[[nodiscard]] inline double pow(double x, double n) noexcept { return std::pow(x, n); }
+// Templates, so that a user's code that also sees the functions of <math.h> is not ambiguous.
+template <std::same_as<double> T>
+[[nodiscard]] T sqrt(T x) noexcept {
+  return std::sqrt(x);
+}
+template <std::same_as<double> T>
+[[nodiscard]] T exp(T x) noexcept {
+  return std::exp(x);
+}
+template <std::same_as<double> T>
+[[nodiscard]] T log(T x) noexcept {
+  return std::log(x);
+}
+template <std::same_as<double> T>
+[[nodiscard]] T abs(T x) noexcept {
+  return std::fabs(x);
+}
+template <std::same_as<double> T>
+[[nodiscard]] T pow(T x, double n) noexcept {
+  return std::pow(x, n);
+}
 [[nodiscard]] constexpr double min(double a, double b) noexcept { return b < a ? b : a; }
 [[nodiscard]] constexpr double max(double a, double b) noexcept { return a < b ? b : a; }
 /// holds ? yes : no, for every lane of a value type.

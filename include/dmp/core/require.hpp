@@ -37,4 +37,11 @@ inline void require_finite(const char* what, double value, const char* unit) {
   if (!(value - value == 0.0)) throw ParameterError(std::string(what) + " must be finite [" + unit + "], got " + to_text(value));
 }
 
+/// Checks the parameters of a law by the `void validate(const Law&)` beside it, which throws ParameterError. Every law of the library
+/// has one; a user's law may do without.
+template <class Law>
+void check_parameters(const Law& law) {
+  if constexpr (requires { validate(law); }) validate(law);
+}
+
 }  // namespace dmp

@@ -17,13 +17,11 @@ concept Diffuses = requires(const D law, const Pair<2, double> pair, const View<
 template <class D>
 concept DiffusionLaw = std::is_trivially_copyable_v<D> && requires(const D law) {
   typename D::reads;
-  { validate(law) };
 };
 
 template <class D>
 consteval bool explain_diffusion() {
   static_assert(requires { typename D::reads; }, "dmp: not a DiffusionLaw: no `using reads = Fields<...>;`, the fields it reads of both particles");
-  static_assert(requires(const D d) { validate(d); }, "dmp: not a DiffusionLaw: no `void validate(const D&)`, which throws ParameterError on bad parameters");
   static_assert(std::is_empty_v<D> || Diffuses<D>, "dmp: not a DiffusionLaw: it has parameters but no `T flux(pair, i, j, support_radius) const` [m^2/s]");
   return DiffusionLaw<D>;
 }

@@ -15,7 +15,6 @@ concept EquationOfState = std::is_trivially_copyable_v<E> && requires(const E eo
   { eos.pressure(x) } -> std::same_as<double>;
   { eos.sound_speed(x) } -> std::same_as<double>;
   { eos.density(x) } -> std::same_as<double>;
-  { validate(eos) };
 };
 
 /// Contract of an equation of state p(rho, e) with e the specific internal energy [J/kg].
@@ -25,7 +24,6 @@ concept ThermalEquationOfState = std::is_trivially_copyable_v<E> && requires(con
   { eos.pressure(x, x) } -> std::same_as<double>;
   { eos.sound_speed(x, x) } -> std::same_as<double>;
   { eos.specific_energy(x, x) } -> std::same_as<double>;
-  { validate(eos) };
 };
 
 template <class E>
@@ -39,7 +37,6 @@ consteval bool explain_equation_of_state() {
                   "dmp: not an EquationOfState: no `T density(T pressure) const` [kg/m^3], the inverse of pressure");
     static_assert(requires(const E e) { { e.rest_density } -> std::convertible_to<double>; },
                   "dmp: not an EquationOfState: no `rest_density` [kg/m^3]");
-    static_assert(requires(const E e) { validate(e); }, "dmp: not an EquationOfState: no `void validate(const E&)`, which throws ParameterError on bad parameters");
   }
   return EquationOfState<E> || ThermalEquationOfState<E>;
 }

@@ -19,14 +19,12 @@ struct Subject {
 template <class F, int Dim>
 concept Forcing = requires(const F law, const Subject<Dim> subject) {
   { law.acceleration(subject) } -> std::same_as<Components<Dim, double>>;
-  { validate(law) };
 };
 
 template <class F, int Dim>
 consteval bool explain_forcing() {
   static_assert(requires(const F law, const Subject<Dim> s) { { law.acceleration(s) } -> std::same_as<Components<Dim, double>>; },
                 "dmp: not a Forcing: no `Components<Dim, double> acceleration(const Subject& subject) const` [m/s^2] for the dimension of this scene");
-  static_assert(requires(const F law) { validate(law); }, "dmp: not a Forcing: no `void validate(const F&)`, which throws ParameterError on bad parameters");
   return Forcing<F, Dim>;
 }
 

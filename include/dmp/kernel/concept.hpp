@@ -13,7 +13,6 @@ concept Kernel = std::is_trivially_copyable_v<K> && requires(const K kernel, dou
   { kernel.support_radius } -> std::convertible_to<double>;
   { kernel.value(r) } -> std::same_as<double>;
   { kernel.radial_factor(r) } -> std::same_as<double>;
-  { validate(kernel) };
 };
 
 template <class K>
@@ -26,7 +25,6 @@ consteval bool explain_kernel() {
                 "dmp: not a Kernel: no `T value(T r) const`, W [m^-Dim]");
   static_assert(requires(const K k, double r) { { k.radial_factor(r) } -> std::same_as<double>; },
                 "dmp: not a Kernel: no `T radial_factor(T r) const`, (1/r) dW/dr [m^-(Dim+2)]");
-  static_assert(requires(const K k) { validate(k); }, "dmp: not a Kernel: no `void validate(const K&)`, which throws ParameterError on bad parameters");
   return Kernel<K>;
 }
 

@@ -15,7 +15,6 @@ concept PairPotential = std::is_trivially_copyable_v<P> && requires(const P law,
   { law.energy(x) } -> std::same_as<double>;
   { law.cutoff } -> std::convertible_to<double>;
   { law.largest_stiffness() } -> std::convertible_to<double>;
-  { validate(law) };
 };
 
 template <class P>
@@ -27,7 +26,6 @@ consteval bool explain_pair_potential() {
   static_assert(requires(const P p) { { p.cutoff } -> std::convertible_to<double>; }, "dmp: not a PairPotential: no `cutoff` [m]");
   static_assert(requires(const P p) { { p.largest_stiffness() } -> std::convertible_to<double>; },
                 "dmp: not a PairPotential: no `double largest_stiffness() const` [N/m], which bounds the time step");
-  static_assert(requires(const P p) { validate(p); }, "dmp: not a PairPotential: no `void validate(const P&)`, which throws ParameterError on bad parameters");
   return PairPotential<P>;
 }
 

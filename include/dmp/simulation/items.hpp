@@ -60,7 +60,7 @@ struct Interaction {
 template <class A, class B, class... Law>
 [[nodiscard]] auto interaction(const Law&... law) {
   static_assert(sizeof...(Law) > 0, "dmp: interaction<A, B>(...) needs at least one pair law");
-  (validate(law), ...);
+  (check_parameters(law), ...);
   return Interaction<A, B, decltype(sweep::as_pair_law(law))...>{{sweep::as_pair_law(law)...}};
 }
 
@@ -80,7 +80,7 @@ struct Bonds {
 template <class A, class B, class Law>
 [[nodiscard]] auto bonds(const Law& law, std::vector<neighbours::Bond> list) {
   static_assert(bond::explain_bond_potential<Law>());
-  validate(law);
+  check_parameters(law);
   return Bonds<A, B, Law, false>{law, std::move(list)};
 }
 /// Bonds too stiff for the step of the scene: they are integrated in sub-steps, all other forces being kicks at the ends of the step
@@ -89,7 +89,7 @@ template <class A, class B, class Law>
 template <class A, class B, class Law>
 [[nodiscard]] auto substepped_bonds(const Law& law, std::vector<neighbours::Bond> list, int substeps = 0) {
   static_assert(bond::explain_bond_potential<Law>());
-  validate(law);
+  check_parameters(law);
   require(substeps >= 0, "substepped_bonds: substeps must be >= 0 (0: as many as stability asks for)", substeps);
   return Bonds<A, B, Law, true>{law, std::move(list), substeps};
 }
@@ -106,7 +106,7 @@ struct Material<std::tuple<Tag...>, Law...> {
 template <class... Tag, class... Law>
 [[nodiscard]] auto material(const Law&... law) {
   static_assert(sizeof...(Tag) > 0, "dmp: material<Groups...>(laws...) names no group");
-  (validate(law), ...);
+  (check_parameters(law), ...);
   return Material<std::tuple<Tag...>, decltype(sweep::as_particle_law(law))...>{{sweep::as_particle_law(law)...}};
 }
 
@@ -122,7 +122,7 @@ struct Forced<std::tuple<Tag...>, Law...> {
 template <class... Tag, class... Law>
 [[nodiscard]] auto forced_by(const Law&... law) {
   static_assert(sizeof...(Tag) > 0, "dmp: forced_by<Groups...>(laws...) names no group");
-  (validate(law), ...);
+  (check_parameters(law), ...);
   return Forced<std::tuple<Tag...>, Law...>{{law...}};
 }
 

@@ -72,10 +72,10 @@ struct WeaklyCompressible {
 
 template <class K, class V, class D, class C>
 void validate(const WeaklyCompressible<K, V, D, C>& law) {
-  validate(law.kernel);
-  validate(law.viscosity);
-  validate(law.diffusion);
-  validate(law.tensile);
+  check_parameters(law.kernel);
+  check_parameters(law.viscosity);
+  check_parameters(law.diffusion);
+  check_parameters(law.tensile);
   if constexpr (requires { law.tensile.spacing; })
     require(law.tensile.spacing < law.kernel.support_radius, "sph::WeaklyCompressible: spacing of the tensile correction must be < the support radius [m]",
             law.tensile.spacing);

@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <dmp/core/field.hpp>
 #include <dmp/core/pair.hpp>
+#include <dmp/core/require.hpp>
 #include <dmp/potential/concept.hpp>
 #include <dmp/sweep/step_limit.hpp>
 
@@ -23,7 +24,6 @@ concept PairLaw = std::is_trivially_copyable_v<L> && requires(const L law, const
   { L::uses_velocity } -> std::convertible_to<bool>;
   { law.cutoff() } -> std::convertible_to<double>;
   law.step_limits(state, limit);
-  { validate(law) };
 };
 
 template <class L>
@@ -33,7 +33,6 @@ consteval bool explain_pair_law() {
   static_assert(requires(const L law) { { law.cutoff() } -> std::convertible_to<double>; }, "dmp: not a PairLaw: no `double cutoff() const` [m]");
   static_assert(requires(const L law, const StepState state, StepLimit limit) { law.step_limits(state, limit); },
                 "dmp: not a PairLaw: no `void step_limits(const StepState&, StepLimit&) const`, its bounds of the time step");
-  static_assert(requires(const L law) { validate(law); }, "dmp: not a PairLaw: no `void validate(const L&)`, which throws ParameterError on bad parameters");
   return PairLaw<L>;
 }
 
@@ -57,7 +56,7 @@ struct PotentialForce {
 };
 template <class P>
 void validate(const PotentialForce<P>& law) {
-  validate(law.potential);
+  check_parameters(law.potential);
 }
 
 /// What an interaction holds for a law that its user named.

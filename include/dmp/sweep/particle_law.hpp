@@ -1,7 +1,9 @@
 #pragma once
+#include <concepts>
 #include <type_traits>
 #include <dmp/core/field.hpp>
 #include <dmp/core/math.hpp>
+#include <dmp/core/require.hpp>
 #include <dmp/eos/concept.hpp>
 
 namespace dmp::sweep {
@@ -14,14 +16,12 @@ template <class L>
 concept ParticleLaw = std::is_trivially_copyable_v<L> && requires(const L law) {
   typename L::reads;
   typename L::writes;
-  { validate(law) };
 };
 
 template <class L>
 consteval bool explain_particle_law() {
   static_assert(requires { typename L::reads; typename L::writes; },
-                "dmp: not a material law: neither an EquationOfState nor a ParticleLaw with `using reads = Fields<...>;` and `using writes = Fields<...>;`");
-  static_assert(requires(const L law) { validate(law); }, "dmp: not a ParticleLaw: no `void validate(const L&)`, which throws ParameterError on bad parameters");
+                "dmp: not a material law: neither an EquationOfState, nor a viscosity(temperature), nor a ParticleLaw with `using reads = Fields<...>;` and `using writes = Fields<...>;`");
   return ParticleLaw<L>;
 }
 
@@ -53,7 +53,28 @@ struct PressureFrom {
 };
 template <class E>
 void validate(const PressureFrom<E>& law) {
-  validate(law.eos);
+  check_parameters(law.eos);
+}
+
+/// A law mu(T) of the viscosity [Pa s] over the temperature [K], as a particle law: `T viscosity(T temperature) const`.
+template <class L>
+concept ViscosityOfTemperature = std::is_trivially_copyable_v<L> && requires(const L law, double temperature) {
+  { law.viscosity(temperature) } -> std::same_as<double>;
+};
+template <ViscosityOfTemperature L>
+struct ViscosityFrom {
+  using reads = Fields<field::Temperature>;
+  using writes = Fields<field::DynamicViscosity>;
+  L law;
+
+  template <class Particle>
+  void apply(Particle& particle) const noexcept {
+    particle.dynamic_viscosity = law.viscosity(particle.temperature);
+  }
+};
+template <class L>
+void validate(const ViscosityFrom<L>& law) {
+  check_parameters(law.law);
 }
 
 /// What a material holds for a law that its user named.
@@ -61,6 +82,8 @@ template <class L>
 [[nodiscard]] constexpr auto as_particle_law(const L& law) {
   if constexpr (eos::EquationOfState<L> || eos::ThermalEquationOfState<L>) {
     return PressureFrom<L>{law};
+  } else if constexpr (ViscosityOfTemperature<L>) {
+    return ViscosityFrom<L>{law};
   } else {
     static_assert(explain_particle_law<L>());
     return law;

@@ -26,13 +26,11 @@ concept Corrects = requires(const C law, const Pair<2, double> pair, const View<
 template <class C>
 concept TensileCorrection = std::is_trivially_copyable_v<C> && requires(const C law) {
   typename C::reads;
-  { validate(law) };
 };
 
 template <class C>
 consteval bool explain_tensile_correction() {
   static_assert(requires { typename C::reads; }, "dmp: not a TensileCorrection: no `using reads = Fields<...>;`, the fields it reads of both particles");
-  static_assert(requires(const C c) { validate(c); }, "dmp: not a TensileCorrection: no `void validate(const C&)`, which throws ParameterError on bad parameters");
   static_assert(std::is_empty_v<C> || Corrects<C>, "dmp: not a TensileCorrection: it has parameters but no `T correction(pair, i, j, kernel) const` [Pa m^6/kg^2]");
   return TensileCorrection<C>;
 }

@@ -1,4 +1,4 @@
-// expect: dmp: not a TensileCorrection: no `void validate(const C&)`, which throws ParameterError on bad parameters
+// expect: dmp: not a TensileCorrection: it has parameters but no `T correction(pair, i, j, kernel) const` [Pa m^6/kg^2]
 #include <dmp/tensile/concept.hpp>
 
 namespace {
@@ -6,7 +6,7 @@ struct Repulsion {
   using reads = dmp::Fields<dmp::field::PressureTerm>;
   double strength;
   template <class Pair, class I, class J, class Kernel>
-  auto correction(const Pair& pair, const I&, const J&, const Kernel& kernel) const {
+  auto corection(const Pair& pair, const I&, const J&, const Kernel& kernel) const {
     return strength * kernel.value(pair.distance);
   }
 };
