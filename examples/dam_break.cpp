@@ -155,7 +155,7 @@ Dam<2> column(int across) {
           .water = fill(lattice, {.lower = {0.0, 0.0}, .upper = {a, 2.0 * a}}),
           .wall = fill(lattice, {.lower = tank.lower - layers, .upper = {tank.upper[0] + layers[0], tank.upper[1]}}, !tank),
           .tank = tank, .closed_end = 0.0, .width = a, .depth = 2.0 * a,
-          .gauges = {{2.0 * spacing, 0.0}, {2.0 * a, 0.0}, {3.0 * a, 0.0}, {4.0 * a - 2.0 * spacing, 0.0}}, .end_time = 12.0 * unit, .interval = 0.02 * unit};
+          .gauges = {{2.0 * spacing, 0.0}, {2.0 * a, 0.0}, {3.0 * a, 0.0}, {4.0 * a - 2.0 * spacing, 0.0}}, .end_time = (std::getenv("TEND") ? std::atof(std::getenv("TEND")) : 12.0) * unit, .interval = 0.02 * unit};
 }
 Dam<3> reservoir(int deep, double end_time) {
   constexpr double depth = 0.55;
@@ -170,7 +170,7 @@ Dam<3> reservoir(int deep, double end_time) {
           .water = fill(lattice, {.lower = {gate, 0.0, 0.0}, .upper = {length, breadth, depth}}),
           .wall = fill(lattice, {.lower = tank.lower - layers, .upper = {length + layers[0], breadth + layers[1], tank.upper[2]}}, (!tank) | box),
           .tank = tank, .closed_end = length, .width = length - gate, .depth = depth,
-          .gauges = {{0.496, 0.5, 0.0}, {0.992, 0.5, 0.0}, {1.488, 0.5, 0.0}, {2.638, 0.5, 0.0}}, .end_time = end_time, .interval = 0.01};
+          .gauges = {{0.496, 0.5, 0.0}, {0.992, 0.5, 0.0}, {1.488, 0.5, 0.0}, {2.638, 0.5, 0.0}}, .end_time = std::getenv("T3") ? std::atof(std::getenv("T3")) : end_time, .interval = 0.01};
 }
 int run(const example::Options& options) {
   const io::OutputFolder folder(options.output);

@@ -53,9 +53,7 @@ TEST_CASE("the shortest way leads through a periodic face where that is nearer, 
 }
 
 TEST_CASE("a rest length left open is the distance at the start, through periodic faces and corners; a given one stays") {
-  std::vector<Bond> bonds{{0, 1}, {0, 2}, {1, 2}, {1, 0, 0.3}};
-  bonds.pop_back();
-  bonds.push_back({1, 3, 0.3});
+  std::vector<Bond> bonds{{0, 1}, {0, 2}, {1, 2}, {1, 3, 0.3}};
   complete_bonds<2>(bonds, corners, corners, true, open, "net");
   CHECK(bonds[0].rest_length == doctest::Approx(0.8).epsilon(1e-15));
   CHECK(bonds[1].rest_length == doctest::Approx(0.8).epsilon(1e-15));
@@ -114,20 +112,20 @@ TEST_CASE("each particle knows its bonds: every bond stands once at each end tha
   const std::vector<Bond> bonds{{0, 1, 0.1}, {3, 1, 0.2}, {1, 2, 0.3}};
   using Expected = std::vector<std::pair<std::uint32_t, double>>;
   BondList both, first, second;
-  both.build(5, bonds, true, false);
+  both.build(5, bonds, true, false, 4);
   CHECK(bonds_of(both, 0) == Expected{{1, 0.1}});
   CHECK(bonds_of(both, 1) == Expected{{0, 0.1}, {2, 0.3}, {3, 0.2}});
   CHECK(bonds_of(both, 2) == Expected{{1, 0.3}});
   CHECK(bonds_of(both, 3) == Expected{{1, 0.2}});
   CHECK(bonds_of(both, 4).empty());
   CHECK(both.most_bonds() == 3);
-  first.build(4, bonds, false, false);  // of two groups: the ends i ...
+  first.build(4, bonds, false, false, 4);  // of two groups: the ends i ...
   CHECK(bonds_of(first, 0) == Expected{{1, 0.1}});
   CHECK(bonds_of(first, 1) == Expected{{2, 0.3}});
   CHECK(bonds_of(first, 2).empty());
   CHECK(bonds_of(first, 3) == Expected{{1, 0.2}});
   CHECK(first.most_bonds() == 1);
-  second.build(3, bonds, false, true);  // ... and the ends j
+  second.build(3, bonds, false, true, 4);  // ... and the ends j
   CHECK(bonds_of(second, 0).empty());
   CHECK(bonds_of(second, 1) == Expected{{0, 0.1}, {3, 0.2}});
   CHECK(bonds_of(second, 2) == Expected{{1, 0.3}});

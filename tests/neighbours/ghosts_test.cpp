@@ -46,7 +46,6 @@ void check_against_every_image(const std::array<bool, Dim>& periodic) {
     for (const auto& points : {test::scattered<Dim>(200, 1.0, 1), test::lattice<Dim>(4, 1.0), test::Cloud<Dim>{}}) {
       CAPTURE(reach);
       ghosts.build(points, box, reach);
-      // Open directions do not limit where images lie: the oracle asks for the box, in which all points are.
       CHECK(images(ghosts, box) == expected<Dim>(points, box, reach));
     }
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <dmp/core/unrolled.hpp>
 
 namespace dmp {
 
@@ -14,15 +15,15 @@ struct Components {
   friend constexpr Components operator+(Components a, const Components& b) noexcept { return a += b; }
   friend constexpr Components operator-(Components a, const Components& b) noexcept { return a -= b; }
   friend constexpr Components operator*(const T& factor, Components a) noexcept {
-    for (T& x : a.component) x = factor * x;
+    unrolled<Dim>([&](auto d) __attribute__((always_inline)) { a.component[d] = factor * a.component[d]; });
     return a;
   }
   constexpr Components& operator+=(const Components& b) noexcept {
-    for (int d = 0; d < Dim; ++d) component[d] = component[d] + b.component[d];
+    unrolled<Dim>([&](auto d) __attribute__((always_inline)) { component[d] = component[d] + b.component[d]; });
     return *this;
   }
   constexpr Components& operator-=(const Components& b) noexcept {
-    for (int d = 0; d < Dim; ++d) component[d] = component[d] - b.component[d];
+    unrolled<Dim>([&](auto d) __attribute__((always_inline)) { component[d] = component[d] - b.component[d]; });
     return *this;
   }
 };
@@ -30,7 +31,7 @@ struct Components {
 template <int Dim, class T>
 [[nodiscard]] constexpr T dot(const Components<Dim, T>& a, const Components<Dim, T>& b) noexcept {
   T result = a.component[0] * b.component[0];
-  for (int d = 1; d < Dim; ++d) result = result + a.component[d] * b.component[d];
+  unrolled<Dim - 1>([&](auto d) __attribute__((always_inline)) { result = result + a.component[d + 1] * b.component[d + 1]; });
   return result;
 }
 

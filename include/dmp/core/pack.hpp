@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#include <dmp/core/unrolled.hpp>
 
 /// SIMD packs from the compilers' vector extension: the operators of double, element by element. The width follows the target that
 /// the user compiles for (AVX-512, AVX, SSE2, NEON); where there is none it is one and the same code runs.
@@ -61,19 +62,19 @@ struct Pack {
   }
   [[nodiscard]] Real operator[](int lane) const noexcept { return raw[lane]; }
 
-  friend Pack operator+(Pack a, Pack b) noexcept { return Pack(a.raw + b.raw); }
-  friend Pack operator-(Pack a, Pack b) noexcept { return Pack(a.raw - b.raw); }
-  friend Pack operator*(Pack a, Pack b) noexcept { return Pack(a.raw * b.raw); }
-  friend Pack operator/(Pack a, Pack b) noexcept { return Pack(a.raw / b.raw); }
-  friend Pack operator+(Pack a, double b) noexcept { return a + Pack(b); }
-  friend Pack operator-(Pack a, double b) noexcept { return a - Pack(b); }
-  friend Pack operator*(Pack a, double b) noexcept { return a * Pack(b); }
-  friend Pack operator/(Pack a, double b) noexcept { return a / Pack(b); }
-  friend Pack operator+(double a, Pack b) noexcept { return Pack(a) + b; }
-  friend Pack operator-(double a, Pack b) noexcept { return Pack(a) - b; }
-  friend Pack operator*(double a, Pack b) noexcept { return Pack(a) * b; }
-  friend Pack operator/(double a, Pack b) noexcept { return Pack(a) / b; }
-  friend Pack operator-(Pack a) noexcept { return Pack(-a.raw); }
+  [[gnu::always_inline]] friend Pack operator+(Pack a, Pack b) noexcept { return Pack(a.raw + b.raw); }
+  [[gnu::always_inline]] friend Pack operator-(Pack a, Pack b) noexcept { return Pack(a.raw - b.raw); }
+  [[gnu::always_inline]] friend Pack operator*(Pack a, Pack b) noexcept { return Pack(a.raw * b.raw); }
+  [[gnu::always_inline]] friend Pack operator/(Pack a, Pack b) noexcept { return Pack(a.raw / b.raw); }
+  [[gnu::always_inline]] friend Pack operator+(Pack a, double b) noexcept { return a + Pack(b); }
+  [[gnu::always_inline]] friend Pack operator-(Pack a, double b) noexcept { return a - Pack(b); }
+  [[gnu::always_inline]] friend Pack operator*(Pack a, double b) noexcept { return a * Pack(b); }
+  [[gnu::always_inline]] friend Pack operator/(Pack a, double b) noexcept { return a / Pack(b); }
+  [[gnu::always_inline]] friend Pack operator+(double a, Pack b) noexcept { return Pack(a) + b; }
+  [[gnu::always_inline]] friend Pack operator-(double a, Pack b) noexcept { return Pack(a) - b; }
+  [[gnu::always_inline]] friend Pack operator*(double a, Pack b) noexcept { return Pack(a) * b; }
+  [[gnu::always_inline]] friend Pack operator/(double a, Pack b) noexcept { return Pack(a) / b; }
+  [[gnu::always_inline]] friend Pack operator-(Pack a) noexcept { return Pack(-a.raw); }
   Pack& operator+=(Pack b) noexcept { return *this = *this + b; }
   Pack& operator-=(Pack b) noexcept { return *this = *this - b; }
   Pack& operator*=(Pack b) noexcept { return *this = *this * b; }
@@ -152,8 +153,9 @@ template <int Step, class Raw, std::size_t... Lane>
 template <int Step, class Raw, int Width>
 [[gnu::always_inline]] inline void transpose_steps(Raw (&row)[Width]) noexcept {
   if constexpr (Step < Width) {
-    for (int first = 0; first < Width; ++first)
-      if ((first & Step) == 0) exchange<Step>(row[first], row[first + Step], std::make_index_sequence<Width>{});
+    unrolled<Width>([&](auto first) __attribute__((always_inline)) {
+      if constexpr ((first & Step) == 0) exchange<Step>(row[first], row[first + Step], std::make_index_sequence<Width>{});
+    });
     transpose_steps<2 * Step>(row);
   }
 }
@@ -165,13 +167,17 @@ template <int Count, class Real, int Width>
 [[gnu::always_inline]] inline void load_transposed(const Real* base, int stride, const std::uint32_t* index, Pack<Real, Width>* out) noexcept {
   using Raw = typename Pack<Real, Width>::Raw;
   const Real* record[Width];
-  for (int lane = 0; lane < Width; ++lane) record[lane] = base + static_cast<std::size_t>(index[lane]) * static_cast<unsigned>(stride);
-  for (int first = 0; first < Count; first += Width) {
+  unrolled<Width>([&](auto lane) __attribute__((always_inline)) {
+    record[lane] = base + static_cast<std::size_t>(index[lane]) * static_cast<unsigned>(stride);
+  });
+  unrolled<(Count + Width - 1) / Width>([&](auto block) __attribute__((always_inline)) {
+    constexpr int first = block * Width;
     Raw row[Width];
-    for (int lane = 0; lane < Width; ++lane) __builtin_memcpy(&row[lane], record[lane] + first, sizeof(Raw));
+    unrolled<Width>([&](auto lane) __attribute__((always_inline)) { __builtin_memcpy(&row[lane], record[lane] + first, sizeof(Raw)); });
     detail::transpose_steps<1>(row);
-    for (int field = 0; field < Width && first + field < Count; ++field) out[first + field] = Pack<Real, Width>(row[field]);
-  }
+    unrolled<(Count - first < Width ? Count - first : Width)>(
+        [&](auto field) __attribute__((always_inline)) { out[first + field] = Pack<Real, Width>(row[field]); });
+  });
 }
 
 }  // namespace dmp

@@ -32,39 +32,47 @@ template <int Dim>
 }
 
 /// The bonds of each particle of one group: who is at the other end, and the rest length. Every bond stands here once per end that moves.
+/// The bonds of a particle fill whole packs; what fills up has a negative rest length and repeats the last partner.
 class BondList {
  public:
-  /// `own` picks the end that lies in this group: false = i, true = j, for bonds whose ends lie in two groups.
-  void build(std::size_t particles, std::span<const Bond> bonds, bool both_ends, bool own_is_j) {
-    offset_.assign(particles + 1, 0);
+  static constexpr double filler = -1.0;  ///< rest length of an entry that is no bond
+
+  /// `own_is_j` picks the end that lies in this group, for bonds whose ends lie in two groups; `pack` entries make a whole pack.
+  void build(std::size_t particles, std::span<const Bond> bonds, bool both_ends, bool own_is_j, std::size_t pack) {
+    std::vector<std::uint32_t> count(particles, 0);
     const auto each = [&](auto&& put) {
       for (const Bond& bond : bonds) {
         if (both_ends || !own_is_j) put(bond.i, bond.j, bond.rest_length);
         if (both_ends || own_is_j) put(bond.j, bond.i, bond.rest_length);
       }
     };
-    each([this](std::uint32_t own, std::uint32_t, double) { ++offset_[own + 1]; });
-    for (std::size_t i = 0; i < particles; ++i) offset_[i + 1] += offset_[i];
-    partner_.resize(offset_[particles]);
-    rest_length_.resize(offset_[particles]);
+    each([&count](std::uint32_t own, std::uint32_t, double) { ++count[own]; });
+    offset_.assign(particles + 1, 0);
+    for (std::size_t i = 0; i < particles; ++i) offset_[i + 1] = offset_[i] + static_cast<std::uint32_t>((count[i] + pack - 1) / pack * pack);
+    partner_.assign(offset_[particles], 0);
+    rest_length_.assign(offset_[particles], filler);
     std::vector<std::uint32_t> cursor(offset_.begin(), offset_.end() - 1);
     each([&](std::uint32_t own, std::uint32_t other, double rest_length) {
       const std::uint32_t to = cursor[own]++;
       partner_[to] = other;
       rest_length_[to] = rest_length;
     });
+    for (std::size_t i = 0; i < particles; ++i)
+      for (std::uint32_t k = cursor[i]; k < offset_[i + 1]; ++k) partner_[k] = partner_[cursor[i] - 1];
+    most_bonds_ = count.empty() ? 0 : *std::max_element(count.begin(), count.end());
   }
 
-  [[nodiscard]] bool empty() const noexcept { return partner_.empty(); }
-  [[nodiscard]] std::span<const std::uint32_t> partners(std::size_t i) const noexcept {
-    return {partner_.data() + offset_[i], offset_[i + 1] - offset_[i]};
-  }
+  /// Partners and rest lengths of particle i, whole packs.
+  [[nodiscard]] std::span<const std::uint32_t> packs(std::size_t i) const noexcept { return {partner_.data() + offset_[i], offset_[i + 1] - offset_[i]}; }
   [[nodiscard]] const double* rest_lengths(std::size_t i) const noexcept { return rest_length_.data() + offset_[i]; }
-  [[nodiscard]] std::uint32_t most_bonds() const noexcept {
-    std::uint32_t most = 0;
-    for (std::size_t i = 0; i + 1 < offset_.size(); ++i) most = std::max(most, offset_[i + 1] - offset_[i]);
-    return most;
+  /// The same without what fills up.
+  [[nodiscard]] std::span<const std::uint32_t> partners(std::size_t i) const noexcept {
+    std::size_t count = offset_[i + 1] - offset_[i];
+    while (count > 0 && rest_lengths(i)[count - 1] < 0.0) --count;
+    return packs(i).first(count);
   }
+  [[nodiscard]] bool empty() const noexcept { return partner_.empty(); }
+  [[nodiscard]] std::uint32_t most_bonds() const noexcept { return most_bonds_; }  ///< of any particle
   [[nodiscard]] std::size_t bytes() const noexcept {
     return offset_.size() * sizeof(std::uint32_t) + partner_.size() * (sizeof(std::uint32_t) + sizeof(double));
   }
@@ -72,6 +80,7 @@ class BondList {
  private:
   std::vector<std::uint32_t> offset_{0}, partner_;
   std::vector<double> rest_length_;
+  std::uint32_t most_bonds_ = 0;
 };
 
 /// Fills in the rest lengths left open, and rejects what is not a bond: an end that does not exist, both ends the same particle, length

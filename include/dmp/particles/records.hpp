@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <dmp/core/aligned.hpp>
 #include <dmp/core/field.hpp>
 #include <dmp/core/pack.hpp>
@@ -8,16 +9,24 @@
 namespace dmp::particles {
 
 namespace detail {
+/// Calls function(slot, number) for every number of the view, slots being compile-time numbers.
 template <int Dim, class T, class... Field, class Function>
 [[gnu::always_inline]] inline void for_each_number(View<Dim, T, Fields<Field...>>& view, Function function) noexcept {
-  int slot = 0;
-  [[maybe_unused]] const auto one = [&](auto& member) __attribute__((always_inline)) {
-    if constexpr (requires { member.component; })
-      for (auto& number : member.component) function(slot++, number);
-    else
-      function(slot++, member);
+  constexpr auto numbers_before = []<class Wanted>(std::type_identity<Wanted>) consteval {
+    int count = 0;
+    bool found = false;
+    ((found = found || std::is_same_v<Wanted, Field>, count += found ? 0 : (Field::is_vector ? Dim : 1)), ...);
+    return count;
   };
-  (one(Field::of(view)), ...);
+  const auto one = [&]<class F>(std::type_identity<F>) __attribute__((always_inline)) {
+    constexpr int first = numbers_before(std::type_identity<F>{});
+    auto& member = F::of(view);
+    if constexpr (F::is_vector)
+      unrolled<Dim>([&](auto d) __attribute__((always_inline)) { function(std::integral_constant<int, first + d>{}, member.component[d]); });
+    else
+      function(std::integral_constant<int, first>{}, member);
+  };
+  (one(std::type_identity<Field>{}), ...);
 }
 }  // namespace detail
 
@@ -41,12 +50,12 @@ class Records<Dim, Fields<Field...>> {
 
   void store(std::size_t index, view<double>& record) noexcept {
     double* const to = data_.data() + index * stride;
-    detail::for_each_number(record, [to](int slot, double number) { to[slot] = number; });
+    detail::for_each_number(record, [to](auto slot, double number) __attribute__((always_inline)) { to[slot] = number; });
   }
   [[nodiscard]] view<double> load(std::size_t index) const noexcept {
     const double* const from = data_.data() + index * stride;
     view<double> record;
-    detail::for_each_number(record, [from](int slot, double& number) { number = from[slot]; });
+    detail::for_each_number(record, [from](auto slot, double& number) __attribute__((always_inline)) { number = from[slot]; });
     return record;
   }
   /// The same record in all lanes.
@@ -54,7 +63,7 @@ class Records<Dim, Fields<Field...>> {
   [[nodiscard, gnu::always_inline]] view<T> spread(std::size_t index) const noexcept {
     const double* const from = data_.data() + index * stride;
     view<T> record;
-    detail::for_each_number(record, [from](int slot, T& number) { number = T(from[slot]); });
+    detail::for_each_number(record, [from](auto slot, T& number) __attribute__((always_inline)) { number = T(from[slot]); });
     return record;
   }
   /// Record index[l] in lane l.
@@ -62,7 +71,7 @@ class Records<Dim, Fields<Field...>> {
     Pack<double, width> numbers_of[stride];
     load_transposed<numbers>(data_.data(), stride, index, numbers_of);
     view<Pack<double, width>> record;
-    detail::for_each_number(record, [&numbers_of](int slot, Pack<double, width>& number) __attribute__((always_inline)) { number = numbers_of[slot]; });
+    detail::for_each_number(record, [&numbers_of](auto slot, Pack<double, width>& number) __attribute__((always_inline)) { number = numbers_of[slot]; });
     return record;
   }
 

@@ -250,8 +250,8 @@ class Engine {
     auto& b = group<typename I::B>();
     constexpr bool same = std::is_same_v<typename I::A, typename I::B>;
     neighbours::complete_bonds<Dim>(active.item.bonds, a.positions(), b.positions(), same, box_, same ? a.name : a.name + " and " + b.name);
-    if constexpr (mobile<decltype(a)>) active.of_a.build(a.size(), active.item.bonds, same, false);
-    if constexpr (mobile<decltype(b)> && !same) active.of_b.build(b.size(), active.item.bonds, false, true);
+    if constexpr (mobile<decltype(a)>) active.of_a.build(a.size(), active.item.bonds, same, false, Lanes::width);
+    if constexpr (mobile<decltype(b)> && !same) active.of_b.build(b.size(), active.item.bonds, false, true, Lanes::width);
     a.may_be_sorted = b.may_be_sorted = false;
   }
 
@@ -512,9 +512,9 @@ class Engine {
     const auto& source = group<Source>();
     const auto view = [&source](const std::uint32_t* index) { return source.gather(index); };
     if (is_periodic_)
-      sweep::sum_bonds<Dim, true>(self, view, list.partners(i), list.rest_lengths(i), periods_, sums, law);
+      sweep::sum_bonds<Dim, true>(self, view, list.packs(i), list.rest_lengths(i), periods_, sums, law);
     else
-      sweep::sum_bonds<Dim, false>(self, view, list.partners(i), list.rest_lengths(i), periods_, sums, law);
+      sweep::sum_bonds<Dim, false>(self, view, list.packs(i), list.rest_lengths(i), periods_, sums, law);
   }
 
   template <bool Fast, class G>

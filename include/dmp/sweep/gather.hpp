@@ -16,10 +16,10 @@ using Lanes = Pack<double, native_width<double>>;
 
 namespace detail {
 template <int Dim, class T, class... Field>
-void set_zero(View<Dim, T, Fields<Field...>>& view) noexcept {
+[[gnu::always_inline]] inline void set_zero(View<Dim, T, Fields<Field...>>& view) noexcept {
   [[maybe_unused]] const auto one = [](auto& member) {
     if constexpr (requires { member.component; })
-      for (auto& number : member.component) number = T(0.0);
+      unrolled<Dim>([&](auto d) __attribute__((always_inline)) { member.component[d] = T(0.0); });
     else
       member = T(0.0);
   };
@@ -30,7 +30,7 @@ template <int Dim, class... Field>
 [[gnu::always_inline]] inline void add_lanes(View<Dim, double, Fields<Field...>>& to, const View<Dim, Lanes, Fields<Field...>>& from) noexcept {
   [[maybe_unused]] const auto one = [](auto& total, const auto& part) {
     if constexpr (requires { part.component; })
-      for (int d = 0; d < Dim; ++d) total.component[d] += sum(part.component[d]);
+      unrolled<Dim>([&](auto d) __attribute__((always_inline)) { total.component[d] += sum(part.component[d]); });
     else
       total += sum(part);
   };
@@ -68,41 +68,31 @@ template <int Dim, class I, class Source, class Sums, class... Law>
 template <int Dim>
 using Periods = std::array<double, Dim>;
 
-/// Adds to sums.force what a bond law says of particle i and its partners. A bond of length zero has no direction and exerts no force.
+/// Adds to sums.force what a bond law says of particle i and its partners, given in whole packs; entries with a negative rest length are
+/// none. A bond of length zero has no direction and exerts no force.
 template <int Dim, bool Periodic, class I, class Source, class Sums, class Law>
 [[gnu::always_inline]] inline void sum_bonds(const I& i, const Source& source, std::span<const std::uint32_t> partners, const double* rest_lengths,
-                      const Periods<Dim>& periods, Sums& sums, const Law& law) noexcept {
-  constexpr std::size_t width = Lanes::width;
-  for (std::size_t k = 0; k < partners.size(); k += width) {
-    const std::size_t lanes = partners.size() - k < width ? partners.size() - k : width;
-    std::uint32_t index[width];
-    double rest[width], live[width];
-    for (std::size_t lane = 0; lane < width; ++lane) {
-      const std::size_t from = k + (lane < lanes ? lane : lanes - 1);
-      index[lane] = partners[from];
-      rest[lane] = rest_lengths[from];
-      live[lane] = lane < lanes ? 1.0 : 0.0;
-    }
-    const auto j = source(index);
+                                             const Periods<Dim>& periods, Sums& sums, const Law& law) noexcept {
+  for (std::size_t k = 0; k < partners.size(); k += Lanes::width) {
+    const auto j = source(partners.data() + k);
+    const Lanes rest_length = Lanes::load(rest_lengths + k);
     Components<Dim, Lanes> separation = i.position - j.position;
     if constexpr (Periodic)
-      for (int d = 0; d < Dim; ++d) {
-        const double period = periods[static_cast<std::size_t>(d)], half = 0.5 * period;
-        if (period > 0.0) {
-          const Lanes x = separation[d];
-          separation[d] = x + select(x > half, -period, select(x < -half, Lanes(period), 0.0));
-        }
-      }
+      unrolled<Dim>([&](auto d) __attribute__((always_inline)) {
+        const double period = periods[static_cast<std::size_t>(static_cast<int>(d))], half = period > 0.0 ? 0.5 * period : 1e300;
+        const Lanes x = separation[d];
+        separation[d] = x + select(x > half, -period, select(x < -half, Lanes(period), 0.0));
+      });
     const Lanes length_squared = dot(separation, separation), length = sqrt(length_squared);
     const Lanes inverse = select(length_squared > 0.0, 1.0 / length, 0.0);
     Lanes tension;
     if constexpr (bond::UsesVelocity<Law>) {
       const Lanes rate = inverse * dot(separation, i.velocity - j.velocity);
-      tension = law.tension(bond::MovingStretch<Lanes>{{length, Lanes::load(rest)}, rate});
+      tension = law.tension(bond::MovingStretch<Lanes>{{length, rest_length}, rate});
     } else {
-      tension = law.tension(bond::Stretch<Lanes>{length, Lanes::load(rest)});
+      tension = law.tension(bond::Stretch<Lanes>{length, rest_length});
     }
-    sums.force -= select(Lanes::load(live) > 0.0, tension * inverse, 0.0) * separation;
+    sums.force -= select(rest_length >= 0.0, tension * inverse, 0.0) * separation;
   }
 }
 

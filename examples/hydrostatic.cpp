@@ -1,0 +1,147 @@
+// Does a liquid in an open tank come to rest, and under the right pressure? (25 s; 3 s with --quick.) Two starts: with the hydrostatic
+// density, and with a uniform one, from which the liquid must sink until the pressure carries it.
+// Gravity, walls of particles that stay in place while their density answers to the liquid, a free surface: no law treats any of them
+// specially. J. J. Monaghan, J. Comput. Phys. 110 (1994) 399-406, doi:10.1006/jcph.1994.1034; walls: A. J. C. Crespo,
+// M. Gomez-Gesteira, R. A. Dalrymple, Comput. Mater. Continua 5 (2007) 173-184, doi:10.3970/cmc.2007.005.173.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <dmp/dmp.hpp>
+
+#include "support/options.hpp"
+#include "support/result.hpp"
+
+using namespace dmp;
+using namespace dmp::simulation;
+using particles::Mobile, particles::Stationary;
+
+struct Liquid {};
+struct Wall {};
+
+namespace {
+
+constexpr double depth = 1.0, width = 1.0;              // of the liquid [m]
+constexpr double gravity = 9.81, rest_density = 1000.0;  // [m/s^2], [kg/m^3]
+const double sound_speed = 10.0 * std::sqrt(gravity * depth);  // [m/s]: the liquid is 1 % denser at the bottom than at the surface
+constexpr double bottom_pressure = rest_density * gravity * depth;  // [Pa]
+// Rest does not depend on the viscosity. This one, of a syrup, damps the slowest motion, the column that bounces on its own
+// compressibility (wave number k = pi/2H), at 3 nu k^2/2 = 0.37/s: its energy falls by a factor of 1600 in 10 s.
+constexpr double kinematic_viscosity = 0.1;  // [m^2/s]
+
+struct State {
+  double kinetic_energy = 0.0;  // relative to what the liquid would have gained by falling all its depth, m g H
+  Vector<2> centre = Vector<2>::Zero();  // of mass [m]
+  double pressure_error = 0.0;  // L2 over all particles deeper than the support radius, relative to the pressure at the bottom
+  double wall_error = 0.0;      // mean of the first row of the bottom, relative
+  double leaked = 0.0;          // particles outside the tank
+};
+
+struct Outcome {
+  RunReport report;
+  State start, middle, end;
+  double highest_energy = 0.0, most_leaked = 0.0, bytes_per_particle = 0.0;
+  std::size_t particles = 0;
+};
+
+enum class Start { hydrostatic, uniform };
+
+Outcome settle(Start start, int rows, double end, const io::OutputFolder& folder) {
+  const double spacing = depth / rows, thickness = 3.0 * spacing;
+  const std::string name = start == Start::hydrostatic ? "hydrostatic" : "uniform";
+
+  // Geometry: walls go on where the lattice of the liquid ends, the first row half a spacing outside the tank. A particle at the wall
+  // then has the same neighbours as one in the middle, so the pressure gradient it feels is that of the liquid and no gap opens; rows
+  // a whole spacing away leave a sheet of missing mass along the wall, which the liquid would fill by sinking half a spacing.
+  const geometry::Cubic<2> lattice{.spacing = spacing};
+  const geometry::Cuboid<2> inside{.lower = {0.0, 0.0}, .upper = {width, 1.25 * depth}};
+  const geometry::Cuboid<2> outside{.lower = {-thickness, -thickness}, .upper = {width + thickness, 1.25 * depth}};
+  const auto liquid = geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {width, depth}});
+  const auto wall = geometry::fill(lattice, outside, outside - inside);
+  const geometry::Box<2> box{.lower = {-1.5 * thickness, -1.5 * thickness}, .upper = {width + 1.5 * thickness, 1.5 * depth}};
+
+  // Laws
+  const sph::WeaklyCompressible<kernel::WendlandC2<2>, viscosity::Monaghan<2>> flow{.kernel = {.support_radius = thickness}};
+  const eos::Linear eos{.rest_density = rest_density, .sound_speed_0 = sound_speed};
+  const rheology::Constant rheology{.dynamic_viscosity = rest_density * kinematic_viscosity};
+  const forcing::Constant<2> weight{.uniform_acceleration = {{{0.0, -gravity}}}};
+
+  // Scene
+  const double mass = rest_density * liquid.volume;
+  auto tank = scene<integrator::ExtrapolatedVerlet>(
+      box, group<Liquid>("liquid_" + name, Mobile{}, liquid, mass), group<Wall>("wall_" + name, Stationary{}, wall, mass),
+      interaction<Liquid, Liquid>(flow), interaction<Liquid, Wall>(flow), material<Liquid, Wall>(eos, rheology), forced_by<Liquid>(weight));
+  tank.engine().for_each_group([&](auto& g) {
+    g.template set<field::Density>([&](const Vector<2>& x) {
+      return start == Start::hydrostatic ? eos.density(rest_density * gravity * std::max(depth - x[1], 0.0)) : rest_density;
+    });
+  });
+
+  // Observation
+  const auto observe = [&](const auto& scene) {
+    const auto& g = scene.template group<Liquid>();
+    const auto& w = scene.template group<Wall>();
+    State state;
+    double squares = 0.0, deep = 0.0, row_pressure = 0.0, row = 0.0;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      const Vector<2>& x = g.positions()[i];
+      state.kinetic_energy += 0.5 * g.template get<field::Velocity>()[i].squaredNorm() / (gravity * depth * static_cast<double>(g.size()));
+      state.centre += x / static_cast<double>(g.size());
+      if (!inside.contains(x)) ++state.leaked;
+      if (x[1] > depth - thickness) continue;
+      const double error = eos.pressure(g.template get<field::Density>()[i]) - rest_density * gravity * (depth - x[1]);
+      squares += error * error;
+      ++deep;
+    }
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      const Vector<2>& x = w.positions()[i];
+      if (x[0] < 0.0 || x[0] > width || x[1] > 0.0 || x[1] < -spacing) continue;
+      row_pressure += eos.pressure(w.template get<field::Density>()[i]);
+      ++row;
+    }
+    state.pressure_error = std::sqrt(squares / deep) / bottom_pressure;
+    state.wall_error = row_pressure / row / (rest_density * gravity * (depth + 0.5 * spacing)) - 1.0;
+    return state;
+  };
+  Outcome outcome;
+  io::CsvTable table(folder / (name + ".csv"), {{"time", "s"}, {"kinetic energy / m g H", "-"}, {"height of the centre of mass", "m"},
+                                                {"pressure error / rho g H", "-"}, {"wall pressure error", "-"}, {"leaked", "-"}});
+  bool is_first = true;
+  tank.every(0.02, [&](const auto& scene) {
+    outcome.end = observe(scene);
+    if (is_first) outcome.start = outcome.end;
+    is_first = false;
+    if (scene.time() < 0.501 * end) outcome.middle = outcome.end;
+    outcome.highest_energy = std::max(outcome.highest_energy, outcome.end.kinetic_energy);
+    outcome.most_leaked = std::max(outcome.most_leaked, outcome.end.leaked);
+    table.row({scene.time(), outcome.end.kinetic_energy, outcome.end.centre[1], outcome.end.pressure_error, outcome.end.wall_error, outcome.end.leaked});
+  });
+  tank.every(end / 20.0, VtkOutput(folder, name));
+  tank.rescue_to((folder / (name + "_last_good.checkpoint")).string()).progress();
+  std::fputs(describe(tank).c_str(), stdout);
+
+  const double sound_is_damped = 2.0 * 3.0 * kinematic_viscosity / (sound_speed * sound_speed);
+  outcome.report = tank.run({.until = end, .time_step = 0.8 * std::min(0.25 * thickness / (sound_speed + 1.0), sound_is_damped)});
+  outcome.particles = tank.particles();
+  outcome.bytes_per_particle = bytes_per_particle(tank);
+  return outcome;
+}
+
+int run(const example::Options& options) {
+  const int rows = options.size == example::Size::quick ? 20 : options.size == example::Size::normal ? 32 : 64;
+  const double end = options.size == example::Size::quick ? 4.0 : 10.0;  // [s]
+  const double spacing = depth / rows;
+  const io::OutputFolder folder(options.output);
+  for (const Start start : {Start::hydrostatic, Start::uniform}) {
+    const Outcome o = settle(start, rows, end, folder);
+    std::printf("start %d: E max %g end %g  centre y %g -> %g -> %g (dx %g) x %g  p err %g %g %g wall %g %g %g leak %g  steps %d wall %g s dt %g bound %s\n", (int)start, o.highest_energy, o.end.kinetic_energy, o.start.centre[1], o.middle.centre[1], o.end.centre[1], spacing, o.end.centre[0],
+     o.start.pressure_error, o.middle.pressure_error, o.end.pressure_error, o.start.wall_error, o.middle.wall_error,o.end.wall_error, o.most_leaked, (int)o.report.steps, o.report.wall_seconds,o.report.time_step, o.report.limit.bound_by.c_str());
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return example::guarded("hydrostatic", run, example::options(argc, argv, "hydrostatic", "Liquid at rest in an open tank: pressure against rho g (H - y)."));
+}
