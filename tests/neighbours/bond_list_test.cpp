@@ -132,15 +132,34 @@ TEST_CASE("each particle knows its bonds: every bond stands once at each end tha
   CHECK(second.most_bonds() == 2);
 }
 
+TEST_CASE("the bonds of a particle fill whole packs, with entries that say they are none and can be loaded like the others") {
+  std::vector<Bond> star;
+  for (std::uint32_t j = 1; j <= 9; ++j) star.push_back({0, j, 0.1 * j});
+  for (const std::size_t pack : {1u, 2u, 4u, 8u})
+    for (std::size_t bonds = 0; bonds <= star.size(); ++bonds) {
+      CAPTURE(pack);
+      CAPTURE(bonds);
+      BondList list;
+      list.build(10, std::span(star).first(bonds), true, false, pack);
+      CHECK(list.packs(0).size() == (bonds + pack - 1) / pack * pack);
+      CHECK(list.partners(0).size() == bonds);
+      for (std::size_t k = 0; k < list.packs(0).size(); ++k) {
+        CHECK((list.rest_lengths(0)[k] >= 0.0) == (k < bonds));
+        CHECK(list.packs(0)[k] < 10);
+      }
+      CHECK(list.most_bonds() == bonds);
+    }
+}
+
 TEST_CASE("no bonds: empty lists") {
   BondList list;
   CHECK(list.empty());
   CHECK(list.most_bonds() == 0);
-  list.build(3, {}, true, false);
+  list.build(3, {}, true, false, 4);
   CHECK(list.empty());
   CHECK(list.most_bonds() == 0);
   for (std::size_t i = 0; i < 3; ++i) CHECK(list.partners(i).empty());
-  list.build(0, {}, true, false);
+  list.build(0, {}, true, false, 4);
   CHECK(list.empty());
   std::vector<Bond> none;
   complete_bonds<2>(none, corners, corners, true, periodic, "net");
