@@ -153,7 +153,7 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
   tank.rescue_to((folder / (dam.name + "_last_good.checkpoint")).string()).progress();
 
   // Run
-  result.add(tank.run({.until = dam.end_time, .safety = 0.6}));
+  result.add(tank.run({.until = dam.end_time, .safety = 0.5}));
   result.particles += tank.particles();
   result.bytes_per_particle = bytes_per_particle(tank);
 
@@ -300,9 +300,9 @@ int run(const example::Options& options) {
   const int across = quick ? 12 : full ? 50 : 24, deep = quick ? 10 : full ? 40 : 20;
   const io::OutputFolder folder(options.output);
   example::Result result{.example = "dam_break", .test_case = "Martin and Moyce; SPHERIC 2",
-                         .resolution = std::to_string(2 * across) + " particles in the height of the column, " + std::to_string(deep) + " in that of the reservoir"};
+                         .resolution = to_text(2 * across) + " particles in the height of the column, " + to_text(deep) + " in that of the reservoir"};
   column(across, quick ? 6.0 : 12.0, folder, result);
-  reservoir(deep, quick ? 1.15 : full ? 3.0 : 1.5, folder, result);
+  reservoir(deep, quick ? 1.15 : full ? 3.0 : 1.2, folder, result);
   return result.print();
 }
 

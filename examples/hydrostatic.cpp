@@ -30,11 +30,12 @@ constexpr double bottom_pressure = rest_density * gravity * depth;  // [Pa]
 constexpr double kinematic_viscosity = 0.1;  // [m^2/s]
 
 struct State {
-  double kinetic_energy = 0.0;  // relative to what the liquid would have gained by falling all its depth, m g H
+  double kinetic_energy = 0.0;           // of the liquid, relative to what it would gain by falling all its depth, m g H
   Vector<2> centre = Vector<2>::Zero();  // of mass [m]
-  double pressure_error = 0.0;  // L2 over all particles deeper than the support radius, relative to the pressure at the bottom
-  double wall_error = 0.0;      // mean of the first row of the bottom, relative
-  double leaked = 0.0;          // particles outside the tank
+  double pressure_error = 0.0;           // L2 over the liquid deeper than the support radius, relative to rho g H
+  double bottom_error = 0.0;             // at the bottom: mean of the rows on either side of it, relative to rho g H
+  double wall_error = 0.0;               // of the wall's row alone, likewise
+  int leaked = 0;                        // particles outside the tank
 };
 
 struct Outcome {
@@ -82,25 +83,30 @@ Outcome settle(Start start, int rows, double end, const io::OutputFolder& folder
     const auto& g = scene.template group<Liquid>();
     const auto& w = scene.template group<Wall>();
     State state;
-    double squares = 0.0, deep = 0.0, row_pressure = 0.0, row = 0.0;
+    double squares = 0.0;
+    int deep = 0, in_row = 0, in_wall = 0;
     for (std::size_t i = 0; i < g.size(); ++i) {
       const Vector<2>& x = g.positions()[i];
       state.kinetic_energy += 0.5 * g.template get<field::Velocity>()[i].squaredNorm() / (gravity * depth * static_cast<double>(g.size()));
       state.centre += x / static_cast<double>(g.size());
       if (!inside.contains(x)) ++state.leaked;
-      if (x[1] > depth - thickness) continue;
-      const double error = eos.pressure(g.template get<field::Density>()[i]) - rest_density * gravity * (depth - x[1]);
+      if (x[1] > depth - h) continue;
+      const double error = (eos.pressure(g.template get<field::Density>()[i]) - rest_pressure(x)) / bottom_pressure;
       squares += error * error;
       ++deep;
+      if (x[1] > spacing) continue;
+      state.bottom_error += error;
+      ++in_row;
     }
     for (std::size_t i = 0; i < w.size(); ++i) {
       const Vector<2>& x = w.positions()[i];
       if (x[0] < 0.0 || x[0] > width || x[1] > 0.0 || x[1] < -spacing) continue;
-      row_pressure += eos.pressure(w.template get<field::Density>()[i]);
-      ++row;
+      state.wall_error += (eos.pressure(w.template get<field::Density>()[i]) - rest_pressure(x)) / bottom_pressure;
+      ++in_wall;
     }
-    state.pressure_error = std::sqrt(squares / deep) / bottom_pressure;
-    state.wall_error = row_pressure / row / (rest_density * gravity * (depth + 0.5 * spacing)) - 1.0;
+    state.pressure_error = std::sqrt(squares / deep);
+    state.wall_error /= in_wall;
+    state.bottom_error = 0.5 * (state.bottom_error / in_row + state.wall_error);
     return state;
   };
   Outcome outcome;

@@ -2,9 +2,11 @@
 // Scenes: groups, what they do to each other, the run, and what is seen of it.
 #include <dmp/simulation/composition.hpp>  // From the items of a scene to what each group must hold, at compile time.
 #include <dmp/simulation/describe.hpp>     // What a scene consists of: columns, records, interactions, sweeps, binding law.
-#include <dmp/simulation/engine.hpp>       // Groups, lists and one time step.
+#include <dmp/simulation/engine.hpp>       // One time step.
+#include <dmp/simulation/forces.hpp>       // Records, then sums over pairs and bonds.
 #include <dmp/simulation/group.hpp>        // One group: columns, records, ghosts, grid.
 #include <dmp/simulation/items.hpp>        // group, interaction, bonds, material, forced_by: what a scene is made of.
+#include <dmp/simulation/model.hpp>        // Groups and items of a scene, and who is near whom.
 #include <dmp/simulation/output.hpp>       // VtkOutput: all groups for ParaView.
 #include <dmp/simulation/progress.hpp>     // Bar with the time left.
 #include <dmp/simulation/scene.hpp>        // scene, run, observers, checkpoint and restart.

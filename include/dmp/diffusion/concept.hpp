@@ -9,7 +9,8 @@ namespace dmp::diffusion {
 /// Law that smooths the density: flux_ij [m^2/s] in drho_i/dt += sum_j m_j F flux_ij. rho_j flux_ij = -rho_i flux_ji keeps the
 /// sum of V rho.
 template <class D>
-concept Diffuses = requires(const D law, const Pair<2, double> pair, const View<2, double, unite<typename D::reads, Fields<field::Mass>>> particle, double h) {
+concept Diffuses = requires(const D law, const Pair<2, double> pair,
+                            const View<2, double, unite<typename D::reads, Fields<field::Mass>>> particle, double h) {
   { law.flux(pair, particle, particle, h) } -> std::same_as<double>;
 };
 
@@ -21,8 +22,10 @@ concept DiffusionLaw = std::is_trivially_copyable_v<D> && requires(const D law) 
 
 template <class D>
 consteval bool explain_diffusion() {
-  static_assert(requires { typename D::reads; }, "dmp: not a DiffusionLaw: no `using reads = Fields<...>;`, the fields it reads of both particles");
-  static_assert(std::is_empty_v<D> || Diffuses<D>, "dmp: not a DiffusionLaw: it has parameters but no `T flux(pair, i, j, support_radius) const` [m^2/s]");
+  static_assert(
+      requires { typename D::reads; }, "dmp: not a DiffusionLaw: no `using reads = Fields<...>;`, the fields it reads of both particles");
+  static_assert(std::is_empty_v<D> || Diffuses<D>,
+                "dmp: not a DiffusionLaw: it has parameters but no `T flux(pair, i, j, support_radius) const` [m^2/s]");
   return DiffusionLaw<D>;
 }
 

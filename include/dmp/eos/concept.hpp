@@ -29,14 +29,26 @@ concept ThermalEquationOfState = std::is_trivially_copyable_v<E> && requires(con
 template <class E>
 consteval bool explain_equation_of_state() {
   if constexpr (!ThermalEquationOfState<E>) {
-    static_assert(requires(const E e, double rho) { { e.pressure(rho) } -> std::same_as<double>; },
-                  "dmp: not an EquationOfState: no `T pressure(T density) const` [Pa] (nor `pressure(density, specific_energy)`)");
-    static_assert(requires(const E e, double rho) { { e.sound_speed(rho) } -> std::same_as<double>; },
-                  "dmp: not an EquationOfState: no `T sound_speed(T density) const` [m/s]");
-    static_assert(requires(const E e, double p) { { e.density(p) } -> std::same_as<double>; },
-                  "dmp: not an EquationOfState: no `T density(T pressure) const` [kg/m^3], the inverse of pressure");
-    static_assert(requires(const E e) { { e.rest_density } -> std::convertible_to<double>; },
-                  "dmp: not an EquationOfState: no `rest_density` [kg/m^3]");
+    static_assert(
+        requires(const E e, double rho) {
+          { e.pressure(rho) } -> std::same_as<double>;
+        },
+        "dmp: not an EquationOfState: no `T pressure(T density) const` [Pa] (nor `pressure(density, specific_energy)`)");
+    static_assert(
+        requires(const E e, double rho) {
+          { e.sound_speed(rho) } -> std::same_as<double>;
+        },
+        "dmp: not an EquationOfState: no `T sound_speed(T density) const` [m/s]");
+    static_assert(
+        requires(const E e, double p) {
+          { e.density(p) } -> std::same_as<double>;
+        },
+        "dmp: not an EquationOfState: no `T density(T pressure) const` [kg/m^3], the inverse of pressure");
+    static_assert(
+        requires(const E e) {
+          { e.rest_density } -> std::convertible_to<double>;
+        },
+        "dmp: not an EquationOfState: no `rest_density` [kg/m^3]");
   }
   return EquationOfState<E> || ThermalEquationOfState<E>;
 }

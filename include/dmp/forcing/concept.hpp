@@ -23,8 +23,12 @@ concept Forcing = requires(const F law, const Subject<Dim> subject) {
 
 template <class F, int Dim>
 consteval bool explain_forcing() {
-  static_assert(requires(const F law, const Subject<Dim> s) { { law.acceleration(s) } -> std::same_as<Components<Dim, double>>; },
-                "dmp: not a Forcing: no `Components<Dim, double> acceleration(const Subject& subject) const` [m/s^2] for the dimension of this scene");
+  static_assert(
+      requires(const F law, const Subject<Dim> s) {
+        { law.acceleration(s) } -> std::same_as<Components<Dim, double>>;
+      },
+      "dmp: not a Forcing: no `Components<Dim, double> acceleration(const Subject& subject) const` [m/s^2] for the dimension of this "
+      "scene");
   return Forcing<F, Dim>;
 }
 

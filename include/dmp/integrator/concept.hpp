@@ -25,12 +25,27 @@ concept Integrator = requires(double x, double v, const double a, double dt) {
 
 template <class I>
 consteval bool explain_integrator() {
-  static_assert(requires(double x, double v, const double a, double dt) { I::begin(x, v, a, dt); I::end(v, a, dt); I::seen(v, a, dt); },
-                "dmp: not an Integrator: no static `begin(x, v, a, dt)`, `end(v, a, dt)` and `seen(v, a, dt)`");
-  static_assert(requires(double s, const double rate, double dt) { I::begin_state(s, rate, dt); I::end_state(s, rate, dt); I::seen_state(s, rate, dt); },
-                "dmp: not an Integrator: no static `begin_state(s, rate, dt)`, `end_state(s, rate, dt)` and `seen_state(s, rate, dt)`");
-  static_assert(requires { I::oscillation_limit; I::damping_limit; I::name; },
-                "dmp: not an Integrator: no `oscillation_limit`, `damping_limit` and `name`");
+  static_assert(
+      requires(double x, double v, const double a, double dt) {
+        I::begin(x, v, a, dt);
+        I::end(v, a, dt);
+        I::seen(v, a, dt);
+      },
+      "dmp: not an Integrator: no static `begin(x, v, a, dt)`, `end(v, a, dt)` and `seen(v, a, dt)`");
+  static_assert(
+      requires(double s, const double rate, double dt) {
+        I::begin_state(s, rate, dt);
+        I::end_state(s, rate, dt);
+        I::seen_state(s, rate, dt);
+      },
+      "dmp: not an Integrator: no static `begin_state(s, rate, dt)`, `end_state(s, rate, dt)` and `seen_state(s, rate, dt)`");
+  static_assert(
+      requires {
+        I::oscillation_limit;
+        I::damping_limit;
+        I::name;
+      },
+      "dmp: not an Integrator: no `oscillation_limit`, `damping_limit` and `name`");
   return Integrator<I>;
 }
 

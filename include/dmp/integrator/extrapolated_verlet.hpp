@@ -7,7 +7,7 @@ namespace dmp::integrator {
 ///   begin: v += (dt/2) a,  x += dt v,  rho += (dt/2) drho/dt;   laws see v* = v + (dt/2) a, i.e. v(t) + dt a(t), and rho(t + dt/2)
 ///   end:   v += (dt/2) a,              rho += (dt/2) drho/dt
 /// Second order also with velocity-dependent forces; damping is stable for lambda dt < 1, half of what the half-step velocity allows.
-/// The scheme of LAMMPS' SPH package: G. C. Ganzenmueller, M. O. Steinhauser, P. Van Liedekerke, SPH-USER documentation (2011).
+/// The scheme of LAMMPS' SPH package: G. C. Ganzenmueller, M. O. Steinhauser, P. Van Liedekerke, The implementation of Smooth Particle Hydrodynamics in LAMMPS (2011).
 struct ExtrapolatedVerlet {
   static constexpr std::string_view name = "extrapolated-velocity Verlet";
   static constexpr double oscillation_limit = 2.0, damping_limit = 1.0;

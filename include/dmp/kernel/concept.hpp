@@ -17,14 +17,26 @@ concept Kernel = std::is_trivially_copyable_v<K> && requires(const K kernel, dou
 
 template <class K>
 consteval bool explain_kernel() {
-  static_assert(requires { { K::dimension } -> std::convertible_to<int>; },
-                "dmp: not a Kernel: no `static constexpr int dimension`, 1, 2 or 3");
-  static_assert(requires(const K k) { { k.support_radius } -> std::convertible_to<double>; },
-                "dmp: not a Kernel: no `support_radius` [m], the distance where W becomes 0");
-  static_assert(requires(const K k, double r) { { k.value(r) } -> std::same_as<double>; },
-                "dmp: not a Kernel: no `T value(T r) const`, W [m^-Dim]");
-  static_assert(requires(const K k, double r) { { k.radial_factor(r) } -> std::same_as<double>; },
-                "dmp: not a Kernel: no `T radial_factor(T r) const`, (1/r) dW/dr [m^-(Dim+2)]");
+  static_assert(
+      requires {
+        { K::dimension } -> std::convertible_to<int>;
+      },
+      "dmp: not a Kernel: no `static constexpr int dimension`, 1, 2 or 3");
+  static_assert(
+      requires(const K k) {
+        { k.support_radius } -> std::convertible_to<double>;
+      },
+      "dmp: not a Kernel: no `support_radius` [m], the distance where W becomes 0");
+  static_assert(
+      requires(const K k, double r) {
+        { k.value(r) } -> std::same_as<double>;
+      },
+      "dmp: not a Kernel: no `T value(T r) const`, W [m^-Dim]");
+  static_assert(
+      requires(const K k, double r) {
+        { k.radial_factor(r) } -> std::same_as<double>;
+      },
+      "dmp: not a Kernel: no `T radial_factor(T r) const`, (1/r) dW/dr [m^-(Dim+2)]");
   return Kernel<K>;
 }
 

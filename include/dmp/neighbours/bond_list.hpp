@@ -48,7 +48,8 @@ class BondList {
     };
     each([&count](std::uint32_t own, std::uint32_t, double) { ++count[own]; });
     offset_.assign(particles + 1, 0);
-    for (std::size_t i = 0; i < particles; ++i) offset_[i + 1] = offset_[i] + static_cast<std::uint32_t>((count[i] + pack - 1) / pack * pack);
+    for (std::size_t i = 0; i < particles; ++i)
+      offset_[i + 1] = offset_[i] + static_cast<std::uint32_t>((count[i] + pack - 1) / pack * pack);
     partner_.assign(offset_[particles], 0);
     rest_length_.assign(offset_[particles], filler);
     std::vector<std::uint32_t> cursor(offset_.begin(), offset_.end() - 1);
@@ -63,7 +64,9 @@ class BondList {
   }
 
   /// Partners and rest lengths of particle i, whole packs.
-  [[nodiscard]] std::span<const std::uint32_t> packs(std::size_t i) const noexcept { return {partner_.data() + offset_[i], offset_[i + 1] - offset_[i]}; }
+  [[nodiscard]] std::span<const std::uint32_t> packs(std::size_t i) const noexcept {
+    return {partner_.data() + offset_[i], offset_[i + 1] - offset_[i]};
+  }
   [[nodiscard]] const double* rest_lengths(std::size_t i) const noexcept { return rest_length_.data() + offset_[i]; }
   /// The same without what fills up.
   [[nodiscard]] std::span<const std::uint32_t> partners(std::size_t i) const noexcept {

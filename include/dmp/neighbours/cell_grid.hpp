@@ -73,8 +73,10 @@ class CellGrid {
     at = low;
     for (;;) {  // over the rows of cells
       std::size_t row = 0;
-      for (int d = Dim - 1; d > 0; --d) row = (row + static_cast<std::size_t>(at[static_cast<std::size_t>(d)])) * static_cast<std::size_t>(cells_[d - 1]);
-      test(start_[row + static_cast<std::size_t>(low[0])], start_[row + static_cast<std::size_t>(high[0]) + 1], x, radius * radius, self, found);
+      for (int d = Dim - 1; d > 0; --d)
+        row = (row + static_cast<std::size_t>(at[static_cast<std::size_t>(d)])) * static_cast<std::size_t>(cells_[d - 1]);
+      test(start_[row + static_cast<std::size_t>(low[0])], start_[row + static_cast<std::size_t>(high[0]) + 1], x, radius * radius, self,
+           found);
       int d = 1;
       for (; d < Dim; ++d) {
         auto& index = at[static_cast<std::size_t>(d)];
@@ -91,7 +93,8 @@ class CellGrid {
 
   [[nodiscard]] int cell_along(double x, int d) const noexcept {
     const double cell = (x - lower_[d]) * inverse_width_[d];
-    return static_cast<int>(std::min(std::max(0.0, cell), cells_[d] - 1.0));  // in this order: a position that is not a number goes to cell 0
+    return static_cast<int>(
+        std::min(std::max(0.0, cell), cells_[d] - 1.0));  // in this order: a position that is not a number goes to cell 0
   }
   [[nodiscard]] std::size_t cell_of(const Vector<Dim>& x) const noexcept {
     std::size_t cell = static_cast<std::size_t>(cell_along(x[Dim - 1], Dim - 1));

@@ -42,7 +42,9 @@ class Exclusions {
               std::span<const std::uint32_t> owner) const {
     if (excluded_.empty() || excluded_[i].empty()) return;
     const auto& skip = excluded_[i];
-    const auto excluded = [&](std::uint32_t row) { return std::binary_search(skip.begin(), skip.end(), row < owned ? row : owner[row - owned]); };
+    const auto excluded = [&](std::uint32_t row) {
+      return std::binary_search(skip.begin(), skip.end(), row < owned ? row : owner[row - owned]);
+    };
     rows.erase(std::remove_if(rows.begin() + static_cast<std::ptrdiff_t>(begin), rows.end(), excluded), rows.end());
   }
 

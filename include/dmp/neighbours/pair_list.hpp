@@ -25,8 +25,8 @@ class PairList {
 
   /// `ranges` divides the particles that get lists among the threads; `radius` [m] is the cut-off and the skin.
   template <int Dim>
-  void build(const Ranges& ranges, std::span<const Vector<Dim>> positions, const CellGrid<Dim>& grid, double radius,
-             const Sources& sources, const Exclusions& excluded, std::size_t pack) {
+  void build(const Ranges& ranges, std::span<const Vector<Dim>> positions, const CellGrid<Dim>& grid, double radius, const Sources& sources,
+             const Exclusions& excluded, std::size_t pack) {
     const auto filler = static_cast<std::uint32_t>(sources.owned + sources.owner.size());
     rows_.resize(ranges.size());
     offset_.resize(positions.size() + ranges.size());
@@ -41,7 +41,8 @@ class PairList {
         excluded.remove(row, rows, begin, sources.owned, sources.owner);
         while (rows.size() % pack != 0) rows.push_back(filler);
         if (rows.size() > std::numeric_limits<std::uint32_t>::max())
-          throw ParameterError("neighbours::PairList: more than 2^32 neighbours in one thread's range; use more threads or a smaller support radius");
+          throw ParameterError(
+              "neighbours::PairList: more than 2^32 neighbours in one thread's range; use more threads or a smaller support radius");
       }
       offset_[last + range] = static_cast<std::uint32_t>(rows.size());
     });

@@ -34,7 +34,9 @@ class Columns<Dim, Fields<Field...>> {
   void resize(std::size_t count) { (resize_one(get<Field>(), count), ...); }
 
   /// Moves row order[k] to row k, for all columns; `order` is a permutation of 0 .. count - 1.
-  void permute(std::span<const std::uint32_t> order) { (permute_one(get<Field>(), std::get<Scratch<Value<Dim, Field>>>(scratch_).values, order), ...); }
+  void permute(std::span<const std::uint32_t> order) {
+    (permute_one(get<Field>(), std::get<Scratch<Value<Dim, Field>>>(scratch_).values, order), ...);
+  }
 
  private:
   template <class F>
@@ -48,10 +50,8 @@ class Columns<Dim, Fields<Field...>> {
 
   template <class V>
   static void resize_one(std::vector<V>& values, std::size_t count) {
-    if constexpr (std::is_same_v<V, double>)
-      values.resize(count, 0.0);
-    else
-      values.resize(count, V::Zero());
+    if constexpr (std::is_same_v<V, double>) values.resize(count, 0.0);
+    else values.resize(count, V::Zero());
   }
   template <class V>
   static void permute_one(std::vector<V>& values, std::vector<V>& scratch, std::span<const std::uint32_t> order) {

@@ -22,9 +22,9 @@ template <int Dim, class T, class... Field, class Function>
     constexpr int first = numbers_before(std::type_identity<F>{});
     auto& member = F::of(view);
     if constexpr (F::is_vector)
-      unrolled<Dim>([&](auto d) __attribute__((always_inline)) { function(std::integral_constant<int, first + d>{}, member.component[d]); });
-    else
-      function(std::integral_constant<int, first>{}, member);
+      unrolled<Dim>([&](auto d)
+                        __attribute__((always_inline)) { function(std::integral_constant<int, first + d>{}, member.component[d]); });
+    else function(std::integral_constant<int, first>{}, member);
   };
   (one(std::type_identity<Field>{}), ...);
 }
@@ -50,12 +50,14 @@ class Records<Dim, Fields<Field...>> {
 
   void store(std::size_t index, view<double>& record) noexcept {
     double* const to = data_.data() + index * stride;
-    detail::for_each_number(record, [to](auto slot, double number) __attribute__((always_inline)) { to[slot] = number; });
+    detail::for_each_number(
+        record, [to](auto slot, double number) __attribute__((always_inline)) { to[slot] = number; });
   }
   [[nodiscard]] view<double> load(std::size_t index) const noexcept {
     const double* const from = data_.data() + index * stride;
     view<double> record;
-    detail::for_each_number(record, [from](auto slot, double& number) __attribute__((always_inline)) { number = from[slot]; });
+    detail::for_each_number(
+        record, [from](auto slot, double& number) __attribute__((always_inline)) { number = from[slot]; });
     return record;
   }
   /// The same record in all lanes.
@@ -63,7 +65,8 @@ class Records<Dim, Fields<Field...>> {
   [[nodiscard, gnu::always_inline]] view<T> spread(std::size_t index) const noexcept {
     const double* const from = data_.data() + index * stride;
     view<T> record;
-    detail::for_each_number(record, [from](auto slot, T& number) __attribute__((always_inline)) { number = T(from[slot]); });
+    detail::for_each_number(
+        record, [from](auto slot, T& number) __attribute__((always_inline)) { number = T(from[slot]); });
     return record;
   }
   /// Record index[l] in lane l.
@@ -71,7 +74,8 @@ class Records<Dim, Fields<Field...>> {
     Pack<double, width> numbers_of[stride];
     load_transposed<numbers>(data_.data(), stride, index, numbers_of);
     view<Pack<double, width>> record;
-    detail::for_each_number(record, [&numbers_of](auto slot, Pack<double, width>& number) __attribute__((always_inline)) { number = numbers_of[slot]; });
+    detail::for_each_number(
+        record, [&numbers_of](auto slot, Pack<double, width>& number) __attribute__((always_inline)) { number = numbers_of[slot]; });
     return record;
   }
 

@@ -19,13 +19,26 @@ concept PairPotential = std::is_trivially_copyable_v<P> && requires(const P law,
 
 template <class P>
 consteval bool explain_pair_potential() {
-  static_assert(requires(const P p, double x) { { p.force_factor(x) } -> std::same_as<double>; },
-                "dmp: not a PairPotential: no `T force_factor(T distance_squared) const` [N/m], force on i = factor r_ij");
-  static_assert(requires(const P p, double x) { { p.energy(x) } -> std::same_as<double>; },
-                "dmp: not a PairPotential: no `T energy(T distance_squared) const` [J]");
-  static_assert(requires(const P p) { { p.cutoff } -> std::convertible_to<double>; }, "dmp: not a PairPotential: no `cutoff` [m]");
-  static_assert(requires(const P p) { { p.largest_stiffness() } -> std::convertible_to<double>; },
-                "dmp: not a PairPotential: no `double largest_stiffness() const` [N/m], which bounds the time step");
+  static_assert(
+      requires(const P p, double x) {
+        { p.force_factor(x) } -> std::same_as<double>;
+      },
+      "dmp: not a PairPotential: no `T force_factor(T distance_squared) const` [N/m], force on i = factor r_ij");
+  static_assert(
+      requires(const P p, double x) {
+        { p.energy(x) } -> std::same_as<double>;
+      },
+      "dmp: not a PairPotential: no `T energy(T distance_squared) const` [J]");
+  static_assert(
+      requires(const P p) {
+        { p.cutoff } -> std::convertible_to<double>;
+      },
+      "dmp: not a PairPotential: no `cutoff` [m]");
+  static_assert(
+      requires(const P p) {
+        { p.largest_stiffness() } -> std::convertible_to<double>;
+      },
+      "dmp: not a PairPotential: no `double largest_stiffness() const` [N/m], which bounds the time step");
   return PairPotential<P>;
 }
 

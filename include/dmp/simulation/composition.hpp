@@ -74,7 +74,9 @@ struct OfMaterial<G, Material<std::tuple<Tag...>, Law...>> {
 };
 
 template <class Field>
-inline constexpr bool is_rate = requires { typename Field::integrates; };
+inline constexpr bool is_rate = requires {
+  typename Field::integrates;
+};
 template <class Field>
 using rate_only = std::conditional_t<is_rate<Field>, Fields<Field>, Fields<>>;
 template <class List>
@@ -108,13 +110,13 @@ struct StartPosition {
 template <class Columns, class State, class Rates, class Record, class Constants, class Derived, class Writes, bool HasPairs, bool HasBonds,
           bool HasSubsteps>
 struct Layout {
-  using columns = Columns;      ///< stored from step to step
-  using state = State;          ///< the columns that material and pair laws read, beside position and velocity
-  using rates = Rates;          ///< rates of change of the state
-  using record = Record;        ///< what pair and bond laws read, packed anew each step
-  using constants = Constants;  ///< one value for the whole group
-  using writes = Writes;        ///< what pair and bond laws sum
-  using seen = unite<Record, Constants>;                                                            ///< what laws see of a particle
+  using columns = Columns;                ///< stored from step to step
+  using state = State;                    ///< the columns that material and pair laws read, beside position and velocity
+  using rates = Rates;                    ///< rates of change of the state
+  using record = Record;                  ///< what pair and bond laws read, packed anew each step
+  using constants = Constants;            ///< one value for the whole group
+  using writes = Writes;                  ///< what pair and bond laws sum
+  using seen = unite<Record, Constants>;  ///< what laws see of a particle
   using prepared = unite<Fields<field::Position, field::Velocity>, State, Derived, Constants>;  ///< what material laws work on
   static constexpr bool has_pairs = HasPairs, has_bonds = HasBonds, has_substeps = HasSubsteps, has_records = HasPairs || HasBonds;
 };
@@ -141,12 +143,13 @@ struct Compose {
 
   using state = subtract<unite<reads, material_reads>, unite<constants, derived, Fields<field::Position, field::Velocity>>>;
   using rates = std::conditional_t<Mobility::evolves, typename Rates<writes>::type, Fields<>>;
-  using columns = unite<Fields<field::Position>, only_if<particles::is_mobile<Mobility>, field::Velocity, field::Acceleration>,
-                        only_if<particles::is_driven<Mobility>, StartPosition, field::Velocity>, only_if<has_substeps, FastAcceleration>, state, rates>;
-  using record = std::conditional_t<has_pairs || has_bonds,
-                                    unite<Fields<field::Position>, only_if<(OfItem<Tag, Item>::uses_velocity || ...), field::Velocity>,
-                                          subtract<reads, constants>>,
-                                    Fields<>>;
+  using columns =
+      unite<Fields<field::Position>, only_if<particles::is_mobile<Mobility>, field::Velocity, field::Acceleration>,
+            only_if<particles::is_driven<Mobility>, StartPosition, field::Velocity>, only_if<has_substeps, FastAcceleration>, state, rates>;
+  using record = std::conditional_t<
+      has_pairs || has_bonds,
+      unite<Fields<field::Position>, only_if<(OfItem<Tag, Item>::uses_velocity || ...), field::Velocity>, subtract<reads, constants>>,
+      Fields<>>;
   using type = Layout<columns, state, rates, record, constants, derived, writes, has_pairs, has_bonds, has_substeps>;
 };
 

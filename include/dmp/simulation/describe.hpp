@@ -33,7 +33,8 @@ template <class Scene>
   scene.engine().for_each_group([&](const auto& g) {
     using G = std::remove_cvref_t<decltype(g)>;
     using L = typename G::Layout;
-    text << "  " << g.name << ": " << g.size() << " particles, " << G::Mobility::name << ", " << G::Columns::bytes_per_particle << " B in columns:";
+    text << "  " << g.name << ": " << g.size() << " particles, " << G::Mobility::name << ", " << G::Columns::bytes_per_particle
+         << " B in columns:";
     fields(typename L::columns{});
     if constexpr (L::has_records) {
       text << "; " << G::Records::bytes_per_particle() << " B record:";
@@ -56,14 +57,16 @@ template <class Scene>
   scene.engine().for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_interaction<I>) {
-      text << "  pairs " << name(std::type_identity<typename I::A>{}) << " - " << name(std::type_identity<typename I::B>{}) << ": cut-off " << active.item.cutoff() << " m, writes";
+      text << "  pairs " << name(std::type_identity<typename I::A>{}) << " - " << name(std::type_identity<typename I::B>{}) << ": cut-off "
+           << active.item.cutoff() << " m, writes";
       fields(typename I::writes{});
       text << '\n';
       any = true;
     }
     if constexpr (is_bonds<I>) {
-      text << "  bonds " << name(std::type_identity<typename I::A>{}) << " - " << name(std::type_identity<typename I::B>{}) << ": " << active.item.bonds.size() << " bonds"
-           << (I::uses_velocity ? ", with velocities" : "") << (I::substepped ? ", sub-stepped" : "") << '\n';
+      text << "  bonds " << name(std::type_identity<typename I::A>{}) << " - " << name(std::type_identity<typename I::B>{}) << ": "
+           << active.item.bonds.size() << " bonds" << (I::uses_velocity ? ", with velocities" : "")
+           << (I::substepped ? ", sub-stepped" : "") << '\n';
       any = true;
     }
   });

@@ -9,8 +9,8 @@
 #include <dmp/core/field.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/neighbours/cell_grid.hpp>
-#include <dmp/particles/columns.hpp>
 #include <dmp/neighbours/ghosts.hpp>
+#include <dmp/particles/columns.hpp>
 #include <dmp/particles/records.hpp>
 #include <dmp/particles/view.hpp>
 #include <dmp/simulation/composition.hpp>
@@ -91,41 +91,43 @@ class Group {
       auto& values = columns.template get<Field>();
       constexpr int components = Field::is_vector ? Dim : 1;
       result.columns.push_back({Field::name, Field::unit, components, {reinterpret_cast<double*>(values.data()), components * values.size()},
-                                requires { Field::is_positive; }});
+                                requires { Field::is_positive; }
+  });
     });
     return result;
-  }
+    }
 
-  /// View of record `index`, with the constants of the group, in all lanes.
-  template <class T>
-  [[nodiscard, gnu::always_inline]] auto spread(std::size_t index) const noexcept {
-    View<Dim, T, typename Layout::seen> view;
-    detail::copy_fields(typename Layout::record{}, view, records.template spread<T>(index));
-    detail::spread_fields<T>(typename Layout::constants{}, view, constants);
-    return view;
-  }
-  /// Views of the records index[0 .. width - 1], with the constants of the group.
-  [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
-    using Lanes = Pack<double, Records::width>;
-    View<Dim, Lanes, typename Layout::seen> view;
-    detail::copy_fields(typename Layout::record{}, view, records.gather(index));
-    detail::spread_fields<Lanes>(typename Layout::constants{}, view, constants);
-    return view;
-  }
+    /// View of record `index`, with the constants of the group, in all lanes.
+    template <class T>
+    [[nodiscard, gnu::always_inline]] auto spread(std::size_t index) const noexcept {
+      View<Dim, T, typename Layout::seen> view;
+      detail::copy_fields(typename Layout::record{}, view, records.template spread<T>(index));
+      detail::spread_fields<T>(typename Layout::constants{}, view, constants);
+      return view;
+    }
+    /// Views of the records index[0 .. width - 1], with the constants of the group.
+    [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
+      using Lanes = Pack<double, Records::width>;
+      View<Dim, Lanes, typename Layout::seen> view;
+      detail::copy_fields(typename Layout::record{}, view, records.gather(index));
+      detail::spread_fields<Lanes>(typename Layout::constants{}, view, constants);
+      return view;
+    }
 
-  std::string name;
-  Mobility mobility;
-  double mass;     ///< of one particle [kg]
-  double spacing;  ///< nearest distance at the start [m], 0 unknown
-  Columns columns;
-  std::vector<std::uint32_t> id;
-  View<Dim, double, typename Layout::constants> constants;
-  Records records;
-  neighbours::Ghosts<Dim> ghosts;
-  neighbours::CellGrid<Dim> grid;
-  std::vector<Vector<Dim>> at_list_build;  ///< positions when the neighbour lists were built
-  Ranges ranges;                           ///< division of the particles among the threads
-  bool may_be_sorted = true;               ///< bonds hold rows, so bonded groups keep their order
-};
+    std::string name;
+    Mobility mobility;
+    double mass;     ///< of one particle [kg]
+    double spacing;  ///< nearest distance at the start [m], 0 unknown
+    Columns columns;
+    std::vector<std::uint32_t> id;
+    View<Dim, double, typename Layout::constants> constants;
+    Records records;
+    neighbours::Ghosts<Dim> ghosts;
+    neighbours::CellGrid<Dim> grid;
+    std::vector<Vector<Dim>> at_list_build;  ///< positions when the neighbour lists were built
+    Ranges ranges;                           ///< division of the particles among the threads
+    bool may_be_sorted = true;               ///< bonds hold rows, so bonded groups keep their order
+    }
+    ;
 
-}  // namespace dmp::simulation
+    }  // namespace dmp::simulation

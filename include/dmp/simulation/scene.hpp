@@ -19,19 +19,19 @@ namespace dmp::simulation {
 
 /// How far to run, and with which step.
 struct RunOptions {
-  Required<double> until;    ///< end of the run [s]
-  double time_step = 0.0;    ///< [s]; 0: from the laws' bounds, reconsidered every 10 steps
-  double safety = 0.9;       ///< fraction of the smallest bound that is taken when time_step is 0; 0 < safety <= 1
+  Required<double> until;           ///< end of the run [s]
+  double time_step = 0.0;           ///< [s]; 0: from the laws' bounds, reconsidered every 10 steps
+  double safety = 0.9;              ///< fraction of the smallest bound that is taken when time_step is 0; 0 < safety <= 1
   std::uint64_t check_every = 100;  ///< steps between two checks of all values (finite, in the box)
 };
 
 /// What a run did.
 struct RunReport {
-  std::uint64_t steps = 0;           ///< of this run
-  double wall_seconds = 0.0;         ///< observers included
-  double particle_steps = 0.0;       ///< particles that evolve, times steps
-  double time_step = 0.0;            ///< the last one [s]
-  sweep::StepLimit limit;            ///< smallest bound met, and the law that set it
+  std::uint64_t steps = 0;      ///< of this run
+  double wall_seconds = 0.0;    ///< observers included
+  double particle_steps = 0.0;  ///< particles that evolve, times steps
+  double time_step = 0.0;       ///< the last one [s]
+  sweep::StepLimit limit;       ///< smallest bound met, and the law that set it
 };
 
 /// A composed simulation: groups, what they do to each other, an integrator, and what looks on. Made by `scene(...)`.
@@ -52,8 +52,8 @@ class Scene {
   }
   [[nodiscard]] Engine<Dim, Integrator, Item...>& engine() noexcept { return engine_; }
   [[nodiscard]] const Engine<Dim, Integrator, Item...>& engine() const noexcept { return engine_; }
-  [[nodiscard]] double time() const noexcept { return clock_.time; }           ///< [s]
-  [[nodiscard]] std::uint64_t step() const noexcept { return clock_.step; }    ///< since the very start, restarts included
+  [[nodiscard]] double time() const noexcept { return clock_.time; }         ///< [s]
+  [[nodiscard]] std::uint64_t step() const noexcept { return clock_.step; }  ///< since the very start, restarts included
   [[nodiscard]] std::size_t particles() const {
     std::size_t count = 0;
     engine_.for_each_group([&count](const auto& g) { count += g.size(); });
@@ -92,7 +92,8 @@ class Scene {
   }
 
   RunReport run(const RunOptions& options) {
-    require(options.until >= clock_.time && options.until < std::numeric_limits<double>::infinity(), "scene: run until must be finite and not before the present time [s]", options.until);
+    require(options.until >= clock_.time && options.until < std::numeric_limits<double>::infinity(),
+            "scene: run until must be finite and not before the present time [s]", options.until);
     require_not_negative("scene: time_step", options.time_step, "s");
     require(options.safety > 0.0 && options.safety <= 1.0, "scene: safety must be > 0 and <= 1", options.safety);
     require(options.check_every > 0, "scene: check_every must be > 0", static_cast<double>(options.check_every));
@@ -103,7 +104,8 @@ class Scene {
       report.limit = find_step_limit(has_substeps);
       double dt = options.time_step;
       if (dt == 0.0) dt = options.safety * report.limit.time_step;
-      if (!(dt < std::numeric_limits<double>::infinity())) throw ParameterError("scene: no law of this scene bounds the time step; give one as time_step");
+      if (!(dt < std::numeric_limits<double>::infinity()))
+        throw ParameterError("scene: no law of this scene bounds the time step; give one as time_step");
       if (dt > report.limit.stable_time_step)
         throw ParameterError("scene: time_step must be <= " + to_text(report.limit.stable_time_step) + " s, the bound of " +
                              report.limit.stability_bound_by + ", got " + to_text(dt));
@@ -119,7 +121,9 @@ class Scene {
           const auto limit = find_step_limit(has_substeps);
           if (limit.time_step < report.limit.time_step) report.limit = limit;
           dt = options.safety * limit.time_step;
-          if (!(dt > 1e-6 * first_dt)) throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")", {clock_.time, clock_.step, "", -1, "time_step", dt});
+          if (!(dt > 1e-6 * first_dt))
+            throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")",
+                                  {clock_.time, clock_.step, "", -1, "time_step", dt});
           base_time = clock_.time;
           base_step = clock_.step;
           choose_substeps(dt);
@@ -212,8 +216,9 @@ class Scene {
             if (j >= b.size()) continue;
             const double distance = (a.positions()[i] - b.positions()[j]).norm();
             if (distance < least)
-              throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " + b.name + " " +
-                                   std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " + to_text(distance));
+              throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " +
+                                   b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
+                                   to_text(distance));
           }
   }
 
@@ -228,18 +233,24 @@ class Scene {
       state.speed = std::max(state.speed, dot(particle.velocity, particle.velocity));
       if constexpr (particles::is_mobile<typename G::Mobility>)
         state.acceleration = std::max(state.acceleration, g.template get<field::Acceleration>()[i].squaredNorm());
-      if constexpr (requires { particle.dynamic_viscosity; particle.density; })
+      if constexpr (requires {
+                      particle.dynamic_viscosity;
+                      particle.density;
+                    })
         state.kinematic_viscosity = std::max(state.kinematic_viscosity, particle.dynamic_viscosity / particle.density);
       engine_.for_each_item([&](const auto& active) {
         using I = std::remove_cvref_t<decltype(active.item)>;
         if constexpr (is_material<I>)
           if constexpr (I::template concerns<typename std::remove_cvref_t<G>::Tag>)
-            std::apply([&](const auto&... law) {
-              const auto one = [&](const auto& l) {
-                if constexpr (requires { l.sound_speed(particle); }) state.sound_speed = std::max(state.sound_speed, l.sound_speed(particle));
-              };
-              (one(law), ...);
-            }, active.item.laws);
+            std::apply(
+                [&](const auto&... law) {
+                  const auto one = [&](const auto& l) {
+                    if constexpr (requires { l.sound_speed(particle); })
+                      state.sound_speed = std::max(state.sound_speed, l.sound_speed(particle));
+                  };
+                  (one(law), ...);
+                },
+                active.item.laws);
       });
     }
     state.speed = std::sqrt(state.speed);
@@ -277,13 +288,15 @@ class Scene {
       if constexpr (is_forced<I>)
         engine_.for_each_group([&](const auto& g) {
           if constexpr (I::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
-            std::apply([&](const auto&... law) {
-              const auto one = [&](const auto& l) {
-                if constexpr (requires { l.damping_rate(g.mass); })
-                  if (l.damping_rate(g.mass) > 0.0) limit.require_below(Integrator::damping_limit / l.damping_rate(g.mass), "drag");
-              };
-              (one(law), ...);
-            }, active.item.laws);
+            std::apply(
+                [&](const auto&... law) {
+                  const auto one = [&](const auto& l) {
+                    if constexpr (requires { l.damping_rate(g.mass); })
+                      if (l.damping_rate(g.mass) > 0.0) limit.require_below(Integrator::damping_limit / l.damping_rate(g.mass), "drag");
+                  };
+                  (one(law), ...);
+                },
+                active.item.laws);
         });
     });
     return limit;
@@ -297,7 +310,8 @@ class Scene {
       if constexpr (particles::is_mobile<typename std::remove_cvref_t<decltype(g)>::Mobility>) {
         const double per_mass = 2.0 * list.most_bonds() / g.mass;
         const double stiffness = active.item.law.largest_stiffness();
-        if (stiffness * per_mass > 0.0) limit.require_below(Integrator::oscillation_limit / std::sqrt(stiffness * per_mass), "bond stiffness");
+        if (stiffness * per_mass > 0.0)
+          limit.require_below(Integrator::oscillation_limit / std::sqrt(stiffness * per_mass), "bond stiffness");
         if constexpr (bond::UsesVelocity<decltype(active.item.law)>) {
           const double damping = active.item.law.largest_damping();
           if (damping * per_mass > 0.0) limit.require_below(Integrator::damping_limit / (damping * per_mass), "bond dashpot");
@@ -322,7 +336,8 @@ class Scene {
       });
       const double needed = std::ceil(dt / (0.9 * fast.time_step));
       if (asked > 0 && dt / asked > fast.time_step)
-        throw ParameterError("substepped_bonds: substeps must be >= " + to_text(std::ceil(dt / fast.time_step)) + " for a step of " + to_text(dt) + " s, got " + std::to_string(asked));
+        throw ParameterError("substepped_bonds: substeps must be >= " + to_text(std::ceil(dt / fast.time_step)) + " for a step of " +
+                             to_text(dt) + " s, got " + std::to_string(asked));
       engine_.set_substeps(asked > 0 ? asked : std::max(1, static_cast<int>(needed)));
     }
   }
@@ -356,10 +371,12 @@ class Scene {
     const auto groups = views();
     for (std::size_t a = 0; a < groups.size(); ++a)
       for (std::size_t b = a + 1; b < groups.size(); ++b)
-        if (groups[a].name == groups[b].name) throw ParameterError("scene: the names of groups must differ, got " + groups[a].name + " twice");
+        if (groups[a].name == groups[b].name)
+          throw ParameterError("scene: the names of groups must differ, got " + groups[a].name + " twice");
     const Fault found = fault();
     if (!found.what.empty())
-      throw ParameterError("scene: group " + found.group + ", particle " + std::to_string(found.particle) + ": " + found.field + " " + found.what + ", got " + to_text(found.value));
+      throw ParameterError("scene: group " + found.group + ", particle " + std::to_string(found.particle) + ": " + found.field + " " +
+                           found.what + ", got " + to_text(found.value));
     engine_.for_each_item([this](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_interaction<I>) {
@@ -367,7 +384,8 @@ class Scene {
         const auto& b = engine_.template group<typename I::B>();
         const double spacing = std::max(a.spacing, b.spacing);
         if (active.item.cutoff() < (1.0 - 1e-9) * spacing)
-          throw ParameterError("scene: support radius (cut-off) of " + a.name + " and " + b.name + " must be >= their spacing " + to_text(spacing) + " m, got " + to_text(active.item.cutoff()));
+          throw ParameterError("scene: support radius (cut-off) of " + a.name + " and " + b.name + " must be >= their spacing " +
+                               to_text(spacing) + " m, got " + to_text(active.item.cutoff()));
       }
     });
   }

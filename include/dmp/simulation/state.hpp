@@ -38,10 +38,12 @@ struct Fault {
   double value = 0.0;
 };
 
-[[nodiscard]] inline Fault find_fault(const std::vector<particles::GroupView>& groups, std::span<const double> lower, std::span<const double> upper) {
+[[nodiscard]] inline Fault find_fault(const std::vector<particles::GroupView>& groups, std::span<const double> lower,
+                                      std::span<const double> upper) {
   for (const auto& group : groups) {
     const auto fault = [&](const char* what, const particles::ColumnView& column, std::size_t k) {
-      return Fault{what, group.name, static_cast<std::int64_t>(group.id[k / static_cast<std::size_t>(column.components)]), std::string(column.name), column.values[k]};
+      return Fault{what, group.name, static_cast<std::int64_t>(group.id[k / static_cast<std::size_t>(column.components)]),
+                   std::string(column.name), column.values[k]};
     };
     for (const auto& column : group.columns) {
       double probe = 0.0, least = 1.0;  // probe stays 0 as long as all values are finite
@@ -90,10 +92,13 @@ inline void write_clock(io::CheckpointWriter& writer, const Clock& clock) {
   writer.add("time", std::span<const double>(&clock.time, 1));
   writer.add("step", std::span<const std::uint64_t>(&clock.step, 1));
 }
-[[nodiscard]] inline std::string section(const particles::GroupView& group, std::string_view what) { return group.name + "." + std::string(what); }
+[[nodiscard]] inline std::string section(const particles::GroupView& group, std::string_view what) {
+  return group.name + "." + std::string(what);
+}
 }  // namespace detail
 
-inline void write_checkpoint(const std::string& path, const std::string& signature, const std::vector<particles::GroupView>& groups, const Clock& clock) {
+inline void write_checkpoint(const std::string& path, const std::string& signature, const std::vector<particles::GroupView>& groups,
+                             const Clock& clock) {
   io::CheckpointWriter writer(path, signature);
   detail::write_clock(writer, clock);
   for (const auto& group : groups) {
@@ -104,25 +109,29 @@ inline void write_checkpoint(const std::string& path, const std::string& signatu
 }
 
 /// The same file from a snapshot.
-inline void write_checkpoint(const std::string& path, const std::string& signature, const std::vector<particles::GroupView>& groups, const Snapshot& snapshot) {
+inline void write_checkpoint(const std::string& path, const std::string& signature, const std::vector<particles::GroupView>& groups,
+                             const Snapshot& snapshot) {
   io::CheckpointWriter writer(path, signature);
   detail::write_clock(writer, snapshot.clock);
   std::size_t next = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const auto& column : groups[g].columns) writer.add(detail::section(groups[g], column.name), std::span<const double>(snapshot.columns[next++]));
+    for (const auto& column : groups[g].columns)
+      writer.add(detail::section(groups[g], column.name), std::span<const double>(snapshot.columns[next++]));
     writer.add(detail::section(groups[g], "id"), std::span<const std::uint32_t>(snapshot.id[g]));
   }
   writer.commit();
 }
 
 /// Fills the groups from a checkpoint; their particle numbers must be those of the file. Nothing is changed when something does not fit.
-[[nodiscard]] inline Clock read_checkpoint(const std::string& path, const std::string& signature, const std::vector<particles::GroupView>& groups) {
+[[nodiscard]] inline Clock read_checkpoint(const std::string& path, const std::string& signature,
+                                           const std::vector<particles::GroupView>& groups) {
   const io::CheckpointReader reader(path, signature);
   std::vector<std::vector<double>> columns;
   std::vector<std::vector<std::uint32_t>> ids;
   const auto fits = [&path](const std::string& section, std::size_t got, std::size_t wanted) {
     if (got != wanted)
-      throw io::CheckpointError(path + ": section " + section + " must hold " + std::to_string(wanted) + " numbers, got " + std::to_string(got));
+      throw io::CheckpointError(path + ": section " + section + " must hold " + std::to_string(wanted) + " numbers, got " +
+                                std::to_string(got));
   };
   const auto time = reader.template read<double>("time");
   const auto step = reader.template read<std::uint64_t>("step");

@@ -31,7 +31,8 @@ template <class K, class V = viscosity::None, class D = diffusion::None, class C
 struct WeaklyCompressible {
   static_assert(kernel::explain_kernel<K>() && viscosity::explain_viscosity<V>() && diffusion::explain_diffusion<D>() &&
                 tensile::explain_tensile_correction<C>());
-  static_assert(detail::dimension_or<V>(K::dimension) == K::dimension, "dmp: sph::WeaklyCompressible: the viscosity law is made for another dimension than the kernel");
+  static_assert(detail::dimension_or<V>(K::dimension) == K::dimension,
+                "dmp: sph::WeaklyCompressible: the viscosity law is made for another dimension than the kernel");
   using reads = unite<Fields<field::Density, field::PressureTerm>, typename V::reads, typename D::reads, typename C::reads>;
   using writes = Fields<field::Acceleration, field::DensityRate>;
   static constexpr bool uses_velocity = true;
@@ -52,7 +53,8 @@ struct WeaklyCompressible {
     if constexpr (viscosity::ActsAlongSeparation<V>) pressure = pressure + viscosity.along_separation(pair, i, j, h);
     if constexpr (tensile::Corrects<C>) pressure = pressure + tensile.correction(pair, i, j, kernel);
     sums.acceleration -= (m_F * pressure) * pair.separation;
-    if constexpr (viscosity::ActsAlongVelocity<V>) sums.acceleration += (m_F * viscosity.along_velocity(pair, i, j)) * pair.relative_velocity;
+    if constexpr (viscosity::ActsAlongVelocity<V>)
+      sums.acceleration += (m_F * viscosity.along_velocity(pair, i, j)) * pair.relative_velocity;
     sums.density_rate += m_F * pair.approach;
     if constexpr (diffusion::Diffuses<D>) sums.density_rate += m_F * diffusion.flux(pair, i, j, h);
   }
@@ -77,8 +79,8 @@ void validate(const WeaklyCompressible<K, V, D, C>& law) {
   check_parameters(law.diffusion);
   check_parameters(law.tensile);
   if constexpr (requires { law.tensile.spacing; })
-    require(law.tensile.spacing < law.kernel.support_radius, "sph::WeaklyCompressible: spacing of the tensile correction must be < the support radius [m]",
-            law.tensile.spacing);
+    require(law.tensile.spacing < law.kernel.support_radius,
+            "sph::WeaklyCompressible: spacing of the tensile correction must be < the support radius [m]", law.tensile.spacing);
 }
 
 }  // namespace dmp::sph

@@ -20,19 +20,18 @@ template <int Dim, class T, class... Field>
   [[maybe_unused]] const auto one = [](auto& member) {
     if constexpr (requires { member.component; })
       unrolled<Dim>([&](auto d) __attribute__((always_inline)) { member.component[d] = T(0.0); });
-    else
-      member = T(0.0);
+    else member = T(0.0);
   };
   (one(Field::of(view)), ...);
 }
 
 template <int Dim, class... Field>
-[[gnu::always_inline]] inline void add_lanes(View<Dim, double, Fields<Field...>>& to, const View<Dim, Lanes, Fields<Field...>>& from) noexcept {
+[[gnu::always_inline]] inline void add_lanes(View<Dim, double, Fields<Field...>>& to,
+                                             const View<Dim, Lanes, Fields<Field...>>& from) noexcept {
   [[maybe_unused]] const auto one = [](auto& total, const auto& part) {
     if constexpr (requires { part.component; })
       unrolled<Dim>([&](auto d) __attribute__((always_inline)) { total.component[d] += sum(part.component[d]); });
-    else
-      total += sum(part);
+    else total += sum(part);
   };
   (one(Field::of(to), Field::of(from)), ...);
 }
@@ -56,7 +55,8 @@ template <bool Velocity, int Dim, class I, class J>
 /// Adds to `sums` what the laws say of particle i and all its neighbours. `i` holds the particle in all lanes; `source(index)` gives the
 /// views of the particles index[0 .. width - 1]; the list fills whole packs.
 template <int Dim, class I, class Source, class Sums, class... Law>
-[[gnu::always_inline]] inline void sum_pairs(const I& i, const Source& source, std::span<const std::uint32_t> neighbours, Sums& sums, const Law&... law) noexcept {
+[[gnu::always_inline]] inline void sum_pairs(const I& i, const Source& source, std::span<const std::uint32_t> neighbours, Sums& sums,
+                                             const Law&... law) noexcept {
   for (std::size_t k = 0; k < neighbours.size(); k += Lanes::width) {
     const auto j = source(neighbours.data() + k);
     const auto pair = pair_of<(Law::uses_velocity || ...), Dim>(i, j);
@@ -71,8 +71,8 @@ using Periods = std::array<double, Dim>;
 /// Adds to sums.force what a bond law says of particle i and its partners, given in whole packs; entries with a negative rest length are
 /// none. A bond of length zero has no direction and exerts no force.
 template <int Dim, bool Periodic, class I, class Source, class Sums, class Law>
-[[gnu::always_inline]] inline void sum_bonds(const I& i, const Source& source, std::span<const std::uint32_t> partners, const double* rest_lengths,
-                                             const Periods<Dim>& periods, Sums& sums, const Law& law) noexcept {
+[[gnu::always_inline]] inline void sum_bonds(const I& i, const Source& source, std::span<const std::uint32_t> partners,
+                                             const double* rest_lengths, const Periods<Dim>& periods, Sums& sums, const Law& law) noexcept {
   for (std::size_t k = 0; k < partners.size(); k += Lanes::width) {
     const auto j = source(partners.data() + k);
     const Lanes rest_length = Lanes::load(rest_lengths + k);

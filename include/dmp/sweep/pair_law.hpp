@@ -28,11 +28,21 @@ concept PairLaw = std::is_trivially_copyable_v<L> && requires(const L law, const
 
 template <class L>
 consteval bool explain_pair_law() {
-  static_assert(requires { typename L::reads; typename L::writes; L::uses_velocity; },
-                "dmp: not a PairLaw: it needs `using reads = Fields<...>;`, `using writes = Fields<...>;` and `static constexpr bool uses_velocity`");
-  static_assert(requires(const L law) { { law.cutoff() } -> std::convertible_to<double>; }, "dmp: not a PairLaw: no `double cutoff() const` [m]");
-  static_assert(requires(const L law, const StepState state, StepLimit limit) { law.step_limits(state, limit); },
-                "dmp: not a PairLaw: no `void step_limits(const StepState&, StepLimit&) const`, its bounds of the time step");
+  static_assert(
+      requires {
+        typename L::reads;
+        typename L::writes;
+        L::uses_velocity;
+      },
+      "dmp: not a PairLaw: it needs `using reads = Fields<...>;`, `using writes = Fields<...>;` and `static constexpr bool uses_velocity`");
+  static_assert(
+      requires(const L law) {
+        { law.cutoff() } -> std::convertible_to<double>;
+      },
+      "dmp: not a PairLaw: no `double cutoff() const` [m]");
+  static_assert(
+      requires(const L law, const StepState state, StepLimit limit) { law.step_limits(state, limit); },
+      "dmp: not a PairLaw: no `void step_limits(const StepState&, StepLimit&) const`, its bounds of the time step");
   return PairLaw<L>;
 }
 

@@ -20,8 +20,13 @@ concept ParticleLaw = std::is_trivially_copyable_v<L> && requires(const L law) {
 
 template <class L>
 consteval bool explain_particle_law() {
-  static_assert(requires { typename L::reads; typename L::writes; },
-                "dmp: not a material law: neither an EquationOfState, nor a viscosity(temperature), nor a ParticleLaw with `using reads = Fields<...>;` and `using writes = Fields<...>;`");
+  static_assert(
+      requires {
+        typename L::reads;
+        typename L::writes;
+      },
+      "dmp: not a material law: neither an EquationOfState, nor a viscosity(temperature), nor a ParticleLaw with `using reads = "
+      "Fields<...>;` and `using writes = Fields<...>;`");
   return ParticleLaw<L>;
 }
 
@@ -38,17 +43,13 @@ struct PressureFrom {
   }
   template <class Particle>
   [[nodiscard]] auto pressure(const Particle& particle) const noexcept {
-    if constexpr (eos::EquationOfState<E>)
-      return eos.pressure(particle.density);
-    else
-      return eos.pressure(particle.density, particle.specific_energy);
+    if constexpr (eos::EquationOfState<E>) return eos.pressure(particle.density);
+    else return eos.pressure(particle.density, particle.specific_energy);
   }
   template <class Particle>
   [[nodiscard]] auto sound_speed(const Particle& particle) const noexcept {
-    if constexpr (eos::EquationOfState<E>)
-      return eos.sound_speed(particle.density);
-    else
-      return eos.sound_speed(particle.density, particle.specific_energy);
+    if constexpr (eos::EquationOfState<E>) return eos.sound_speed(particle.density);
+    else return eos.sound_speed(particle.density, particle.specific_energy);
   }
 };
 template <class E>

@@ -6,13 +6,13 @@ namespace dmp::sweep {
 
 /// What a law needs to state its own stability bound: extremes over the particles it acts on, and what the integrator stands.
 struct StepState {
-  double speed = 0.0;                ///< largest |v| [m/s]
-  double acceleration = 0.0;         ///< largest |a| [m/s^2]
-  double sound_speed = 0.0;          ///< largest c [m/s]
-  double kinematic_viscosity = 0.0;  ///< largest mu/rho [m^2/s]
+  double speed = 0.0;                                     ///< largest |v| [m/s]
+  double acceleration = 0.0;                              ///< largest |a| [m/s^2]
+  double sound_speed = 0.0;                               ///< largest c [m/s]
+  double kinematic_viscosity = 0.0;                       ///< largest mu/rho [m^2/s]
   double mass = std::numeric_limits<double>::infinity();  ///< smallest particle mass [kg]; infinite where nothing moves
-  double oscillation_limit = 2.0;    ///< stable for omega dt < this
-  double damping_limit = 1.0;        ///< stable for lambda dt < this
+  double oscillation_limit = 2.0;                         ///< stable for omega dt < this
+  double damping_limit = 1.0;                             ///< stable for lambda dt < this
 };
 
 /// The smallest bound found so far, and the law that set it.

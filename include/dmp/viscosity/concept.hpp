@@ -41,12 +41,16 @@ concept ViscosityLaw = std::is_trivially_copyable_v<V> && requires(const V law, 
 
 template <class V>
 consteval bool explain_viscosity() {
-  static_assert(requires { typename V::reads; },
-                "dmp: not a ViscosityLaw: no `using reads = Fields<...>;`, the fields it reads of both particles");
-  static_assert(requires(const V v, double x) { { v.damping_rate(x, x, x, 2) } -> std::same_as<double>; },
-                "dmp: not a ViscosityLaw: no `double damping_rate(nu, support_radius, radial_factor_integral, dimension) const` [1/s]");
+  static_assert(
+      requires { typename V::reads; }, "dmp: not a ViscosityLaw: no `using reads = Fields<...>;`, the fields it reads of both particles");
+  static_assert(
+      requires(const V v, double x) {
+        { v.damping_rate(x, x, x, 2) } -> std::same_as<double>;
+      },
+      "dmp: not a ViscosityLaw: no `double damping_rate(nu, support_radius, radial_factor_integral, dimension) const` [1/s]");
   static_assert((std::is_empty_v<V> && V::reads::count == 0) || ActsAlongSeparation<V> || ActsAlongVelocity<V>,
-                "dmp: not a ViscosityLaw: neither `T along_separation(pair, i, j, support_radius) const` [Pa m^6/kg^2] nor `T along_velocity(pair, i, j) const` [m^5/(kg s)]");
+                "dmp: not a ViscosityLaw: neither `T along_separation(pair, i, j, support_radius) const` [Pa m^6/kg^2] nor `T "
+                "along_velocity(pair, i, j) const` [m^5/(kg s)]");
   return ViscosityLaw<V>;
 }
 
