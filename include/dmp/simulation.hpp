@@ -6,6 +6,7 @@
 #include <dmp/simulation/forces.hpp>       // Records, then sums over pairs and bonds.
 #include <dmp/simulation/group.hpp>        // One group: columns, records, ghosts, grid.
 #include <dmp/simulation/items.hpp>        // group, interaction, bonds, material, forced_by: what a scene is made of.
+#include <dmp/simulation/limits.hpp>       // Bounds of the time step, from all laws of a scene.
 #include <dmp/simulation/model.hpp>        // Groups and items of a scene, and who is near whom.
 #include <dmp/simulation/output.hpp>       // VtkOutput: all groups for ParaView.
 #include <dmp/simulation/progress.hpp>     // Bar with the time left.

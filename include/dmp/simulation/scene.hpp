@@ -11,6 +11,7 @@
 #include <vector>
 #include <dmp/core/simulation_error.hpp>
 #include <dmp/simulation/engine.hpp>
+#include <dmp/simulation/limits.hpp>
 #include <dmp/simulation/progress.hpp>
 #include <dmp/simulation/state.hpp>
 #include <dmp/sweep/step_limit.hpp>
@@ -88,7 +89,7 @@ class Scene {
   /// Every law's bound of the time step for the present state; the smallest one, and whose it is.
   [[nodiscard]] sweep::StepLimit step_limit() {
     prepare();
-    return find_step_limit(false);
+    return find_step_limit<Integrator>(engine_, false);
   }
 
   RunReport run(const RunOptions& options) {
@@ -101,7 +102,7 @@ class Scene {
     RunReport report;
     try {
       prepare();
-      report.limit = find_step_limit(has_substeps);
+      report.limit = find_step_limit<Integrator>(engine_, has_substeps);
       double dt = options.time_step;
       if (dt == 0.0) dt = options.safety * report.limit.time_step;
       if (!(dt < std::numeric_limits<double>::infinity()))
@@ -110,7 +111,7 @@ class Scene {
         throw ParameterError("scene: time_step must be <= " + to_text(report.limit.stable_time_step) + " s, the bound of " +
                              report.limit.stability_bound_by + ", got " + to_text(dt));
       const double first_dt = dt;
-      choose_substeps(dt);
+      if constexpr (has_substeps) engine_.set_substeps(substeps_for<Integrator>(engine_, dt));
       check();
       Progress bar(shows_progress_, clock_.time, options.until);
       observe(dt);
@@ -118,7 +119,7 @@ class Scene {
       std::uint64_t base_step = clock_.step;
       while (clock_.time < options.until - 0.5 * dt) {
         if (options.time_step == 0.0 && clock_.step % 10 == 0) {
-          const auto limit = find_step_limit(has_substeps);
+          const auto limit = find_step_limit<Integrator>(engine_, has_substeps);
           if (limit.time_step < report.limit.time_step) report.limit = limit;
           dt = options.safety * limit.time_step;
           if (!(dt > 1e-6 * first_dt))
@@ -126,7 +127,7 @@ class Scene {
                                   {clock_.time, clock_.step, "", -1, "time_step", dt});
           base_time = clock_.time;
           base_step = clock_.step;
-          choose_substeps(dt);
+          if constexpr (has_substeps) engine_.set_substeps(substeps_for<Integrator>(engine_, dt));
         }
         ++clock_.step;
         clock_.time = base_time + static_cast<double>(clock_.step - base_step) * dt;
@@ -220,126 +221,6 @@ class Scene {
                                    b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
                                    to_text(distance));
           }
-  }
-
-  // ---- time step ------------------------------------------------------------------------------------------------------------
-
-  template <class G>
-  [[nodiscard]] sweep::StepState state_of(const G& g) const {
-    sweep::StepState state{.oscillation_limit = Integrator::oscillation_limit, .damping_limit = Integrator::damping_limit};
-    if constexpr (particles::is_mobile<typename G::Mobility>) state.mass = g.mass;
-    for (std::size_t i = 0; i < g.size(); ++i) {
-      const auto particle = engine_.prepared(g, i, 0.0);
-      state.speed = std::max(state.speed, dot(particle.velocity, particle.velocity));
-      if constexpr (particles::is_mobile<typename G::Mobility>)
-        state.acceleration = std::max(state.acceleration, g.template get<field::Acceleration>()[i].squaredNorm());
-      if constexpr (requires {
-                      particle.dynamic_viscosity;
-                      particle.density;
-                    })
-        state.kinematic_viscosity = std::max(state.kinematic_viscosity, particle.dynamic_viscosity / particle.density);
-      engine_.for_each_item([&](const auto& active) {
-        using I = std::remove_cvref_t<decltype(active.item)>;
-        if constexpr (is_material<I>)
-          if constexpr (I::template concerns<typename std::remove_cvref_t<G>::Tag>)
-            std::apply(
-                [&](const auto&... law) {
-                  const auto one = [&](const auto& l) {
-                    if constexpr (requires { l.sound_speed(particle); })
-                      state.sound_speed = std::max(state.sound_speed, l.sound_speed(particle));
-                  };
-                  (one(law), ...);
-                },
-                active.item.laws);
-      });
-    }
-    state.speed = std::sqrt(state.speed);
-    state.acceleration = std::sqrt(state.acceleration);
-    return state;
-  }
-
-  [[nodiscard]] sweep::StepLimit find_step_limit(bool without_substepped) const {
-    sweep::StepLimit limit;
-    std::vector<sweep::StepState> states;
-    engine_.for_each_group([&](const auto& g) { states.push_back(state_of(g)); });
-    const auto state = [&]<class Tag>(std::type_identity<Tag>) {
-      std::size_t index = 0, found = 0;
-      engine_.for_each_group([&](const auto& g) {
-        if (std::is_same_v<typename std::remove_cvref_t<decltype(g)>::Tag, Tag>) found = index;
-        ++index;
-      });
-      return states[found];
-    };
-    engine_.for_each_item([&](const auto& active) {
-      using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_interaction<I>) {
-        sweep::StepState both = state(std::type_identity<typename I::A>{});
-        const sweep::StepState other = state(std::type_identity<typename I::B>{});
-        both.speed = std::max(both.speed, other.speed);
-        both.acceleration = std::max(both.acceleration, other.acceleration);
-        both.sound_speed = std::max(both.sound_speed, other.sound_speed);
-        both.kinematic_viscosity = std::max(both.kinematic_viscosity, other.kinematic_viscosity);
-        both.mass = std::min(both.mass, other.mass);
-        std::apply([&](const auto&... law) { (law.step_limits(both, limit), ...); }, active.item.laws);
-      }
-      if constexpr (is_bonds<I>) {
-        if (!(I::substepped && without_substepped)) limit_bonds(active, limit);
-      }
-      if constexpr (is_forced<I>)
-        engine_.for_each_group([&](const auto& g) {
-          if constexpr (I::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
-            std::apply(
-                [&](const auto&... law) {
-                  const auto one = [&](const auto& l) {
-                    if constexpr (requires { l.damping_rate(g.mass); })
-                      if (l.damping_rate(g.mass) > 0.0) limit.require_below(Integrator::damping_limit / l.damping_rate(g.mass), "drag");
-                  };
-                  (one(law), ...);
-                },
-                active.item.laws);
-        });
-    });
-    return limit;
-  }
-
-  /// omega^2 <= 2 n k/m and lambda <= 2 n c/m for a particle with n bonds (Gershgorin's circles of the stiffness matrix).
-  template <class Active>
-  void limit_bonds(const Active& active, sweep::StepLimit& limit) const {
-    using I = std::remove_cvref_t<decltype(active.item)>;
-    const auto end = [&](const auto& g, const neighbours::BondList& list) {
-      if constexpr (particles::is_mobile<typename std::remove_cvref_t<decltype(g)>::Mobility>) {
-        const double per_mass = 2.0 * list.most_bonds() / g.mass;
-        const double stiffness = active.item.law.largest_stiffness();
-        if (stiffness * per_mass > 0.0)
-          limit.require_below(Integrator::oscillation_limit / std::sqrt(stiffness * per_mass), "bond stiffness");
-        if constexpr (bond::UsesVelocity<decltype(active.item.law)>) {
-          const double damping = active.item.law.largest_damping();
-          if (damping * per_mass > 0.0) limit.require_below(Integrator::damping_limit / (damping * per_mass), "bond dashpot");
-        }
-      }
-    };
-    end(engine_.template group<typename I::A>(), active.of_a);
-    if constexpr (!std::is_same_v<typename I::A, typename I::B>) end(engine_.template group<typename I::B>(), active.of_b);
-  }
-
-  void choose_substeps(double dt) {
-    if constexpr (has_substeps) {
-      sweep::StepLimit fast;
-      int asked = 0;
-      engine_.for_each_item([&](const auto& active) {
-        using I = std::remove_cvref_t<decltype(active.item)>;
-        if constexpr (is_bonds<I>)
-          if constexpr (I::substepped) {
-            limit_bonds(active, fast);
-            asked = std::max(asked, active.item.substeps);
-          }
-      });
-      const double needed = std::ceil(dt / (0.9 * fast.time_step));
-      if (asked > 0 && dt / asked > fast.time_step)
-        throw ParameterError("substepped_bonds: substeps must be >= " + to_text(std::ceil(dt / fast.time_step)) + " for a step of " +
-                             to_text(dt) + " s, got " + std::to_string(asked));
-      engine_.set_substeps(asked > 0 ? asked : std::max(1, static_cast<int>(needed)));
-    }
   }
 
   // ---- checks and rescue ----------------------------------------------------------------------------------------------------
