@@ -286,7 +286,7 @@ void reservoir(int deep, double end, const io::OutputFolder& folder, example::Re
     const double level = at(history, point.time, [&point](const Sample& s) { return s.levels[point.gauge]; });
     deviation[point.gauge] = std::max(deviation[point.gauge], std::abs(level - point.level) / depth);
   }
-  for (const std::size_t gauge : {3, 2, 1})
+  for (const std::size_t gauge : {3u, 2u, 1u})
     result.error(std::string("reservoir: level at x = ").append(to_text(gauges[gauge])).append(" m/depth"), deviation[gauge], 0.03 + 1.0 / deep, "MARIN: a spacing, and the delay of the gate");
 
   io::plot(folder, "reservoir",
@@ -297,12 +297,12 @@ void reservoir(int deep, double end, const io::OutputFolder& folder, example::Re
 
 int run(const example::Options& options) {
   const bool quick = options.size == example::Size::quick, full = options.size == example::Size::full;
-  const int across = quick ? 12 : full ? 50 : 24, deep = quick ? 10 : full ? 40 : 20;
+  const int across = quick ? 12 : full ? 50 : 24, deep = quick ? 10 : full ? 40 : 16;
   const io::OutputFolder folder(options.output);
   example::Result result{.example = "dam_break", .test_case = "Martin and Moyce; SPHERIC 2",
                          .resolution = to_text(2 * across) + " particles in the height of the column, " + to_text(deep) + " in that of the reservoir"};
-  column(across, quick ? 6.0 : 12.0, folder, result);
-  reservoir(deep, quick ? 1.15 : full ? 3.0 : 1.2, folder, result);
+  column(across, quick ? 5.0 : 12.0, folder, result);
+  reservoir(deep, quick ? 1.02 : full ? 3.0 : 1.2, folder, result);
   return result.print();
 }
 

@@ -151,7 +151,7 @@ int run(const example::Options& options) {
   io::plot(folder, "oscillator_chain",
            "set datafile separator ','\nset multiplot layout 1, 2\nset xlabel 'q a [rad]'\nset xrange [0:pi]\nset key top left\nset ylabel 'omega / sqrt(k/m)'\n"
            "plot 2*sin(x/2) with lines lw 2 title '2 sin(q a/2)', 'dispersion.csv' using 2:($3/" + to_text(std::sqrt(stiffness / mass)) + ") skip 1 with points pt 7 ps 2 title 'dmp'\n"
-           "set ylabel 'frequency error, relative'\nset logscale y\n"
+           "set ylabel 'frequency error, relative'\nset logscale y\nset format y '10^{%T}'\n"
            "plot (" + to_text(2.0 * fraction) + "*sin(x/2))**2/24 with lines lw 2 title '(omega dt)^2/24', 'dispersion.csv' using 2:($3/$4 - 1) skip 1 with points pt 7 ps 2 title 'dmp'\nunset multiplot");
   return result.print();
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Everything that needs only Eigen. What needs a further library (app/options.hpp: CLI11) is included by name.
+// Everything that needs only Eigen. A header that needs a further library is included by name.
 #include <dmp/bond.hpp>
 #include <dmp/diffusion.hpp>
 #include <dmp/eos.hpp>

@@ -126,7 +126,7 @@ class CellGrid {
   Vector<Dim> lower_ = Vector<Dim>::Zero(), inverse_width_ = Vector<Dim>::Zero();
   Eigen::Matrix<int, Dim, 1> cells_ = Eigen::Matrix<int, Dim, 1>::Ones();
   std::vector<std::uint32_t> start_{0, 0}, cell_, cursor_, row_;
-  std::array<AlignedVector<double>, Dim> coordinate_;
+  AlignedVector<double> coordinate_[Dim];
   std::size_t count_ = 0;
 };
 

@@ -44,7 +44,7 @@ template <class Scene>
     }
     text << "; constants:";
     fields(typename L::constants{});
-    text << "; " << g.ghosts.size() << " ghosts\n";
+    text << "; " << g.ghost_count() << " ghosts\n";
     if (G::Mobility::evolves) {
       ++integrations;
       if (L::has_records) ++packs;

@@ -23,7 +23,7 @@ class Forces : public Model<Dim, Item...> {
     this->find_neighbours();
     for_each_group([&](auto& g) {
       if constexpr (LayoutOf<decltype(g)>::has_records) {
-        g.records.resize(g.size() + g.ghosts.size() + 1);
+        g.records.resize(g.size() + g.ghost_count() + 1);
         if constexpr (!evolves<decltype(g)>) pack(g, 0.0);
       }
     });
@@ -96,14 +96,15 @@ class Forces : public Model<Dim, Item...> {
         g.records.store(i, record);
       }
     });
-    for (std::size_t k = 0; k < g.ghosts.size(); ++k) {
-      auto record = g.records.load(g.ghosts.owner[k]);
-      record.position += detail::components<Dim>(g.ghosts.shift[k]);
-      g.records.store(g.size() + k, record);
-    }
+    if constexpr (LayoutOf<G>::has_pairs)
+      for (std::size_t k = 0; k < g.ghosts.size(); ++k) {
+        auto record = g.records.load(g.ghosts.owner[k]);
+        record.position += detail::components<Dim>(g.ghosts.shift[k]);
+        g.records.store(g.size() + k, record);
+      }
     auto far_away = g.records.load(0);
     for (double& x : far_away.position.component) x = 1e30;
-    g.records.store(g.size() + g.ghosts.size(), far_away);
+    g.records.store(g.size() + g.ghost_count(), far_away);
   }
 
   template <class Law, class Particle>

@@ -41,9 +41,21 @@ template <int Dim>
 }
 }  // namespace detail
 
+namespace detail {
+/// What a group needs to be found by pair laws; nothing where there are none.
+template <int Dim, bool HasPairs>
+struct Neighbourhood {};
+template <int Dim>
+struct Neighbourhood<Dim, true> {
+  neighbours::Ghosts<Dim> ghosts{};
+  neighbours::CellGrid<Dim> grid{};
+  std::vector<Vector<Dim>> at_list_build{};  ///< positions when the neighbour lists were built
+};
+}  // namespace detail
+
 /// One group of a running scene: its columns, its records with their ghosts, and the cell grid in which others look for it.
 template <class Item, class Layout_>
-class Group {
+class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
  public:
   using Tag = typename Item::Tag;
   using Mobility = typename Item::Mobility;
@@ -59,11 +71,16 @@ class Group {
     id.resize(positions().size());
     for (std::size_t k = 0; k < id.size(); ++k) id[k] = static_cast<std::uint32_t>(k);
     constants.mass = mass;
-    at_list_build = positions();
+    if constexpr (Layout::has_pairs) this->at_list_build = positions();
     ranges = Ranges(size());
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return id.size(); }
+  /// Images of particles behind periodic faces, as of the last list build.
+  [[nodiscard]] std::size_t ghost_count() const noexcept {
+    if constexpr (Layout::has_pairs) return this->ghosts.size();
+    return 0;
+  }
   template <class Field>
   [[nodiscard]] auto& get() noexcept {
     static_assert(contains<Field, typename Layout::columns>, "dmp: this group has no such column: no law of the scene needs it");
@@ -90,44 +107,40 @@ class Group {
     for_each_field(typename Layout::columns{}, [&]<class Field>(Field) {
       auto& values = columns.template get<Field>();
       constexpr int components = Field::is_vector ? Dim : 1;
-      result.columns.push_back({Field::name, Field::unit, components, {reinterpret_cast<double*>(values.data()), components * values.size()},
-                                requires { Field::is_positive; }
-  });
+      constexpr bool positive = requires { Field::is_positive; };
+      result.columns.push_back(
+          {Field::name, Field::unit, components, {reinterpret_cast<double*>(values.data()), components * values.size()}, positive});
     });
     return result;
-    }
+  }
 
-    /// View of record `index`, with the constants of the group, in all lanes.
-    template <class T>
-    [[nodiscard, gnu::always_inline]] auto spread(std::size_t index) const noexcept {
-      View<Dim, T, typename Layout::seen> view;
-      detail::copy_fields(typename Layout::record{}, view, records.template spread<T>(index));
-      detail::spread_fields<T>(typename Layout::constants{}, view, constants);
-      return view;
-    }
-    /// Views of the records index[0 .. width - 1], with the constants of the group.
-    [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
-      using Lanes = Pack<double, Records::width>;
-      View<Dim, Lanes, typename Layout::seen> view;
-      detail::copy_fields(typename Layout::record{}, view, records.gather(index));
-      detail::spread_fields<Lanes>(typename Layout::constants{}, view, constants);
-      return view;
-    }
+  /// View of record `index`, with the constants of the group, in all lanes.
+  template <class T>
+  [[nodiscard, gnu::always_inline]] auto spread(std::size_t index) const noexcept {
+    View<Dim, T, typename Layout::seen> view;
+    detail::copy_fields(typename Layout::record{}, view, records.template spread<T>(index));
+    detail::spread_fields<T>(typename Layout::constants{}, view, constants);
+    return view;
+  }
+  /// Views of the records index[0 .. width - 1], with the constants of the group.
+  [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
+    using Lanes = Pack<double, Records::width>;
+    View<Dim, Lanes, typename Layout::seen> view;
+    detail::copy_fields(typename Layout::record{}, view, records.gather(index));
+    detail::spread_fields<Lanes>(typename Layout::constants{}, view, constants);
+    return view;
+  }
 
-    std::string name;
-    Mobility mobility;
-    double mass;     ///< of one particle [kg]
-    double spacing;  ///< nearest distance at the start [m], 0 unknown
-    Columns columns;
-    std::vector<std::uint32_t> id;
-    View<Dim, double, typename Layout::constants> constants;
-    Records records;
-    neighbours::Ghosts<Dim> ghosts;
-    neighbours::CellGrid<Dim> grid;
-    std::vector<Vector<Dim>> at_list_build;  ///< positions when the neighbour lists were built
-    Ranges ranges;                           ///< division of the particles among the threads
-    bool may_be_sorted = true;               ///< bonds hold rows, so bonded groups keep their order
-    }
-    ;
+  std::string name;
+  Mobility mobility;
+  double mass;     ///< of one particle [kg]
+  double spacing;  ///< nearest distance at the start [m], 0 unknown
+  Columns columns;
+  std::vector<std::uint32_t> id;
+  View<Dim, double, typename Layout::constants> constants;
+  Records records;
+  Ranges ranges;              ///< division of the particles among the threads
+  bool may_be_sorted = true;  ///< bonds hold rows, so bonded groups keep their order
+};
 
-    }  // namespace dmp::simulation
+}  // namespace dmp::simulation

@@ -244,7 +244,7 @@ class Model {
       }
     }
     g.ranges = Ranges(g.size());
-    g.at_list_build = g.positions();
+    if constexpr (LayoutOf<G>::has_pairs) g.at_list_build = g.positions();
     moved_[index_of<typename G::Tag>()] = 0.0;
   }
 
