@@ -1,4 +1,4 @@
-// Two dam breaks: a column of water collapses on a dry floor (2D), and a reservoir breaks over a box (3D) (70 s; 6 s with --quick).
+// Two dam breaks: a column of water collapses on a dry floor (2D), and a reservoir breaks over a box (3D) (80 s; 6 s with --quick).
 // How far do surge front and water levels follow the experiments, and does the scheme only ever lose energy, and no water?
 // 2D: J. C. Martin, W. J. Moyce, Phil. Trans. R. Soc. A 244 (1952) 312-324, doi:10.1098/rsta.1952.0006: column a wide and 2a high.
 // 3D: K. M. T. Kleefsman et al., J. Comput. Phys. 206 (2005) 363-393, doi:10.1016/j.jcp.2004.12.007: the dam break of MARIN, benchmark 2
@@ -28,13 +28,6 @@ namespace {
 
 constexpr double density = 1000.0, gravity = 9.81;  // [kg/m^3], [m/s^2]
 constexpr int wall_layers = 3;
-
-/// The library's Verlet with the density extrapolated to the end of the step as the velocity is. With the density of half a step before,
-/// each sound wave grows at the rate omega^2 dt/4: with the little viscosity of this flow the run blows up unless dt is some 5 times smaller.
-struct Verlet : integrator::ExtrapolatedVerlet {
-  static constexpr std::string_view name = "Verlet, velocity and density extrapolated";
-  [[nodiscard]] static double seen_state(double state, double rate, double dt) noexcept { return state + 0.5 * dt * rate; }
-};
 
 /// A tank with a block of water in one of its corners, held back until the start. The last direction is up, the floor is at 0.
 template <int Dim>
@@ -123,7 +116,7 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
   // Scene
   const Vector<Dim> margin = Vector<Dim>::Constant((wall_layers + 1) * dam.spacing);
   const double mass = density * dam.water.volume;
-  auto tank = scene<Verlet>(
+  auto tank = scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<Dim>{.lower = dam.tank.lower - margin, .upper = dam.tank.upper + margin}, group<Water>(dam.name + "_water", Mobile{}, dam.water, mass),
       group<Wall>(dam.name + "_wall", Stationary{}, dam.wall, mass), interaction<Water, Water>(flow), interaction<Water, Wall>(flow),
       material<Water, Wall>(eos), forced_by<Water>(weight));
@@ -297,7 +290,7 @@ void reservoir(int deep, double end, const io::OutputFolder& folder, example::Re
 
 int run(const example::Options& options) {
   const bool quick = options.size == example::Size::quick, full = options.size == example::Size::full;
-  const int across = quick ? 12 : full ? 50 : 24, deep = quick ? 10 : full ? 40 : 16;
+  const int across = quick ? 12 : full ? 50 : 24, deep = quick ? 10 : full ? 40 : 20;
   const io::OutputFolder folder(options.output);
   example::Result result{.example = "dam_break", .test_case = "Martin and Moyce; SPHERIC 2",
                          .resolution = to_text(2 * across) + " particles in the height of the column, " + to_text(deep) + " in that of the reservoir"};

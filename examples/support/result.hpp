@@ -34,7 +34,7 @@ struct Result {
     steps += report.steps;
     wall_seconds += report.wall_seconds;
     particle_steps += report.particle_steps;
-    step_bound_by = report.limit.bound_by;
+    step_bound_by = report.step_bound_by;
   }
   [[nodiscard]] bool holds() const;
 

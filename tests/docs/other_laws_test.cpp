@@ -88,7 +88,7 @@ struct SoftRepulsion {
  private:
   template <class T>
   T rest(const T& distance_squared) const {
-    return max(cutoff * cutoff - distance_squared, 0.0) * (1.0 / (cutoff * cutoff));
+    return select(distance_squared < cutoff * cutoff, 1.0 - distance_squared * (1.0 / (cutoff * cutoff)), 0.0);
   }
 };
 // end

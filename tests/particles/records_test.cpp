@@ -55,7 +55,7 @@ void check_round_trip() {
   using Lanes = dmp::Pack<double, R::width>;
   for (std::uint32_t start = 0; start < count; start += 5) {
     std::uint32_t index[R::width];
-    for (std::uint32_t lane = 0; lane < R::width; ++lane) index[lane] = (start + 17 * lane * lane) % count;  // any order, repetitions
+    for (std::uint32_t lane = 0; lane < R::width; ++lane) index[lane] = static_cast<std::uint32_t>((start + 17 * lane * lane) % count);  // any order, repetitions
     index[R::width - 1] = count - 1;                                                                          // the very last record
     const auto gathered = records.gather(index);
     const auto spread = records.template spread<Lanes>(index[0]);

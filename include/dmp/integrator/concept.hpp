@@ -9,7 +9,7 @@ namespace dmp::integrator {
 ///   seen(v, a, dt)                               velocity that laws see in the evaluation between the two; a is still the last one
 ///   begin_state(s, rate, dt), end_state(s, rate, dt), seen_state(s, rate, dt)    the same for a state with a rate
 ///   oscillation_limit                            stable for omega dt < this (undamped oscillator)
-///   damping_limit                                stable for lambda dt < this (dv/dt = -lambda v)
+///   damping_limit, state_damping_limit           stable for lambda dt < this (dv/dt = -lambda v; ds/dt = -lambda s)
 template <class I>
 concept Integrator = requires(double x, double v, const double a, double dt) {
   I::begin(x, v, a, dt);
@@ -20,6 +20,7 @@ concept Integrator = requires(double x, double v, const double a, double dt) {
   { I::seen_state(x, a, dt) } -> std::convertible_to<double>;
   { I::oscillation_limit } -> std::convertible_to<double>;
   { I::damping_limit } -> std::convertible_to<double>;
+  { I::state_damping_limit } -> std::convertible_to<double>;
   I::name;
 };
 

@@ -18,7 +18,9 @@ namespace detail {
 /// Extremes over the particles of a group.
 template <class Integrator, class Engine, class G>
 [[nodiscard]] sweep::StepState state_of(const Engine& engine, const G& g) {
-  sweep::StepState state{.oscillation_limit = Integrator::oscillation_limit, .damping_limit = Integrator::damping_limit};
+  sweep::StepState state{.oscillation_limit = Integrator::oscillation_limit,
+                         .damping_limit = Integrator::damping_limit,
+                         .state_damping_limit = Integrator::state_damping_limit};
   if constexpr (particles::is_mobile<typename G::Mobility>) state.mass = g.mass;
   for (std::size_t i = 0; i < g.size(); ++i) {
     const auto particle = engine.prepared(g, i, 0.0);

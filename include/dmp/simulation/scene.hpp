@@ -33,6 +33,7 @@ struct RunReport {
   double particle_steps = 0.0;  ///< particles that evolve, times steps
   double time_step = 0.0;       ///< the last one [s]
   sweep::StepLimit limit;       ///< smallest bound met, and the law that set it
+  std::string step_bound_by;    ///< what set the step: a law, or the user within the bound of a law
 };
 
 /// A composed simulation: groups, what they do to each other, an integrator, and what looks on. Made by `scene(...)`.
@@ -143,6 +144,9 @@ class Scene {
       }
       check();
       report.time_step = dt;
+      report.step_bound_by = options.time_step == 0.0 ? report.limit.bound_by
+                                                      : "given, " + to_text(std::round(100.0 * dt / report.limit.stable_time_step)) +
+                                                            " % of the bound of " + report.limit.stability_bound_by;
     } catch (const SimulationError&) {
       rescue();
       throw;

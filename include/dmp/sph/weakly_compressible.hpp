@@ -68,7 +68,7 @@ struct WeaklyCompressible {
     const double rate = viscosity.damping_rate(state.kinematic_viscosity, h, kernel::radial_factor_integral(kernel), K::dimension);
     if (rate > 0.0) limit.require_below(state.damping_limit / rate, "viscosity");
     if constexpr (requires { diffusion.damping_rate(h, h); })
-      limit.require_below(state.damping_limit / diffusion.damping_rate(h, kernel::radial_factor_integral(kernel)), "density diffusion");
+      limit.require_below(state.state_damping_limit / diffusion.damping_rate(h, kernel::radial_factor_integral(kernel)), "density diffusion");
   }
 };
 

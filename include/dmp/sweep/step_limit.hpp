@@ -12,7 +12,8 @@ struct StepState {
   double kinematic_viscosity = 0.0;                       ///< largest mu/rho [m^2/s]
   double mass = std::numeric_limits<double>::infinity();  ///< smallest particle mass [kg]; infinite where nothing moves
   double oscillation_limit = 2.0;                         ///< stable for omega dt < this
-  double damping_limit = 1.0;                             ///< stable for lambda dt < this
+  double damping_limit = 1.0;                             ///< stable for lambda dt < this (velocities)
+  double state_damping_limit = 1.0;                       ///< stable for lambda dt < this (density and other states)
 };
 
 /// The smallest bound found so far, and the law that set it.
