@@ -156,7 +156,7 @@ struct Diffusion {
     sums.concentration_rate += 2.0 * diffusivity * j.mass / j.density * kernel.radial_factor(pair.distance) * (i.concentration - j.concentration);
   }
   void step_limits(const sweep::StepState& state, sweep::StepLimit& limit) const {
-    limit.require_below(state.damping_limit / (2.0 * diffusivity * kernel::radial_factor_integral(kernel)), "diffusion of solids");
+    limit.require_below(state.state_damping_limit / (2.0 * diffusivity * kernel::radial_factor_integral(kernel)), "diffusion of solids");
   }
 };
 // end

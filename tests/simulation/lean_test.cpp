@@ -73,10 +73,10 @@ TEST_CASE("a bond-only scene has no density, no neighbour list and no ghosts; a 
 
 TEST_CASE("an isothermal 2D fluid stores two components and no energy; mass and viscosity are constants of the group") {
   using Channel = decltype(channel());
-  static_assert(std::is_same_v<LayoutIn<Channel, Water>::columns, Fields<Position, Velocity, Acceleration, Density, DensityRate>>);
+  static_assert(std::is_same_v<LayoutIn<Channel, Water>::columns, Fields<Position, Velocity, Acceleration, Density, DensityRate, Previous<DensityRate>>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::record, Fields<Position, Velocity, Density, PressureTerm>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::constants, Fields<Mass, DynamicViscosity>>);
-  static_assert(GroupIn<Channel, Water>::Columns::bytes_per_particle == 3 * 16 + 2 * 8);
+  static_assert(GroupIn<Channel, Water>::Columns::bytes_per_particle == 3 * 16 + 3 * 8);
   auto scene = channel();
   scene.engine().for_each_group([](auto& g) { g.template set<Density>([](const auto&) { return 1.0; }); });
   const std::string text = describe(scene);
@@ -102,15 +102,15 @@ TEST_CASE("a frozen wall stores position and density, and is neither integrated 
 
 TEST_CASE("a stationary wall stores its density and the rate of it, no velocity and no acceleration") {
   using Basin = decltype(basin());
-  static_assert(std::is_same_v<LayoutIn<Basin, Wall>::columns, Fields<Position, Density, DensityRate>>);
-  static_assert(GroupIn<Basin, Wall>::Columns::bytes_per_particle == 32);
+  static_assert(std::is_same_v<LayoutIn<Basin, Wall>::columns, Fields<Position, Density, DensityRate, Previous<DensityRate>>>);
+  static_assert(GroupIn<Basin, Wall>::Columns::bytes_per_particle == 40);
   auto scene = basin();
   CHECK(scene.particles() == 20);
 }
 
 TEST_CASE("an elastic membrane in a fluid carries what both its laws need, and no energy") {
   using Balloon = decltype(membrane());
-  static_assert(std::is_same_v<LayoutIn<Balloon, Solid>::columns, Fields<Position, Velocity, Acceleration, Density, DensityRate>>);
+  static_assert(std::is_same_v<LayoutIn<Balloon, Solid>::columns, Fields<Position, Velocity, Acceleration, Density, DensityRate, Previous<DensityRate>>>);
   static_assert(std::is_same_v<LayoutIn<Balloon, Solid>::writes, Fields<Acceleration, DensityRate, Force>>);
   static_assert(std::is_same_v<LayoutIn<Balloon, Water>::columns, LayoutIn<Balloon, Solid>::columns>);
   auto scene = membrane();

@@ -185,3 +185,39 @@ TEST_CASE("a driven group follows its motion, and pushes what it meets") {
   CHECK(leftmost > 0.1 * scene.time());
   CHECK(speed == doctest::Approx(0.1).epsilon(0.2));
 }
+
+namespace {
+
+/// Energy after six periods of a standing sound wave without viscosity, over the energy at the start; kinetic and elastic.
+template <class Integrator>
+double energy_kept_by_sound(double safety) {
+  const double spacing = 1.0 / 32.0, sound_speed = 10.0, amplitude = 1e-3;
+  using Ideal = sph::WeaklyCompressible<kernel::WendlandC2<2>>;
+  auto scene = simulation::scene<Integrator>(
+      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 0.25}, .periodic = {true, true}},
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 0.25}}), spacing * spacing),
+      interaction<Water, Water>(Ideal{.kernel = {.support_radius = 2.6 * spacing}}),
+      material<Water>(eos::Linear{.rest_density = 1.0, .sound_speed_0 = sound_speed}));
+  auto& water = scene.template group<Water>();
+  water.template set<field::Density>([](const auto&) { return 1.0; });
+  water.template set<field::Velocity>(
+      [&](const Vector<2>& x) { return Vector<2>(amplitude * std::sin(2.0 * std::numbers::pi * x[0]), 0.0); });
+  const auto energy = [&] {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < water.size(); ++i)
+      sum += water.template get<field::Velocity>()[i].squaredNorm() + square(sound_speed * (water.template get<field::Density>()[i] - 1.0));
+    return sum;
+  };
+  const double before = energy();
+  scene.run({.until = 0.6, .safety = safety});  // the period is 0.1
+  return energy() / before;
+}
+
+}  // namespace
+
+TEST_CASE("a sound wave without viscosity keeps its energy under every integrator; with LAMMPS' half-step density it grows") {
+  CHECK(energy_kept_by_sound<integrator::ExtrapolatedVerlet>(0.9) == doctest::Approx(1.0).epsilon(0.05));
+  CHECK(energy_kept_by_sound<integrator::Leapfrog>(0.9) == doctest::Approx(1.0).epsilon(0.05));
+  CHECK(energy_kept_by_sound<integrator::SymplecticEuler>(0.9) == doctest::Approx(1.0).epsilon(0.05));
+  CHECK(energy_kept_by_sound<integrator::LammpsVerlet>(0.9) > 2.0);
+}

@@ -7,7 +7,8 @@ namespace dmp::integrator {
 /// a velocity (a number or a Vector), or a state such as density with its rate.
 ///   begin(x, v, a, dt), end(v, a, dt)            motion, a from the last evaluation in begin, from the new one in end
 ///   seen(v, a, dt)                               velocity that laws see in the evaluation between the two; a is still the last one
-///   begin_state(s, rate, dt), end_state(s, rate, dt), seen_state(s, rate, dt)    the same for a state with a rate
+///   begin_state(s, rate, dt), end_state(s, rate, dt), seen_state(s, rate, previous, dt)    the same for a state with a rate; `previous`
+///                                                is the rate of the step before if the integrator `keeps_rates`
 ///   oscillation_limit                            stable for omega dt < this (undamped oscillator)
 ///   damping_limit, state_damping_limit           stable for lambda dt < this (dv/dt = -lambda v; ds/dt = -lambda s)
 template <class I>
@@ -17,10 +18,11 @@ concept Integrator = requires(double x, double v, const double a, double dt) {
   { I::seen(x, a, dt) } -> std::convertible_to<double>;
   I::begin_state(x, a, dt);
   I::end_state(x, a, dt);
-  { I::seen_state(x, a, dt) } -> std::convertible_to<double>;
+  { I::seen_state(x, a, a, dt) } -> std::convertible_to<double>;
   { I::oscillation_limit } -> std::convertible_to<double>;
   { I::damping_limit } -> std::convertible_to<double>;
   { I::state_damping_limit } -> std::convertible_to<double>;
+  { I::keeps_rates } -> std::convertible_to<bool>;
   I::name;
 };
 
@@ -37,9 +39,9 @@ consteval bool explain_integrator() {
       requires(double s, const double rate, double dt) {
         I::begin_state(s, rate, dt);
         I::end_state(s, rate, dt);
-        I::seen_state(s, rate, dt);
+        I::seen_state(s, rate, rate, dt);
       },
-      "dmp: not an Integrator: no static `begin_state(s, rate, dt)`, `end_state(s, rate, dt)` and `seen_state(s, rate, dt)`");
+      "dmp: not an Integrator: no static `begin_state(s, rate, dt)`, `end_state(s, rate, dt)` and `seen_state(s, rate, previous, dt)`");
   static_assert(
       requires {
         I::oscillation_limit;

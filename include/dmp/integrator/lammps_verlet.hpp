@@ -9,7 +9,9 @@ namespace dmp::integrator {
 /// and D the kinematic viscosity and the diffusivity of density [m^2/s], a bound that no law can state.
 struct LammpsVerlet : ExtrapolatedVerlet {
   static constexpr std::string_view name = "extrapolated-velocity Verlet, half-step state";
-  [[nodiscard]] static double seen_state(double state, double, double) noexcept { return state; }
+  static constexpr double state_damping_limit = 2.0;
+  static constexpr bool keeps_rates = false;
+  [[nodiscard]] static double seen_state(double state, double, double, double) noexcept { return state; }
 };
 
 }  // namespace dmp::integrator

@@ -121,9 +121,23 @@ struct Layout {
   static constexpr bool has_pairs = HasPairs, has_bonds = HasBonds, has_substeps = HasSubsteps, has_records = HasPairs || HasBonds;
 };
 
+/// A rate of change as it was one step ago, for integrators that extrapolate the state.
+template <class Rate>
+struct Previous {
+  static constexpr std::string_view name = Rate::previous_name, unit = Rate::unit;
+  static constexpr bool is_vector = Rate::is_vector;
+};
+
 namespace detail {
 
-template <class G, class... Item>
+template <class List>
+struct AllPrevious;
+template <class... Rate>
+struct AllPrevious<Fields<Rate...>> {
+  using type = Fields<Previous<Rate>...>;
+};
+
+template <class G, bool KeepsRates, class... Item>
 struct Compose {
   using Tag = typename G::Tag;
   using Mobility = typename G::Mobility;
@@ -143,9 +157,9 @@ struct Compose {
 
   using state = subtract<unite<reads, material_reads>, unite<constants, derived, Fields<field::Position, field::Velocity>>>;
   using rates = std::conditional_t<Mobility::evolves, typename Rates<writes>::type, Fields<>>;
-  using columns =
-      unite<Fields<field::Position>, only_if<particles::is_mobile<Mobility>, field::Velocity, field::Acceleration>,
-            only_if<particles::is_driven<Mobility>, StartPosition, field::Velocity>, only_if<has_substeps, FastAcceleration>, state, rates>;
+  using columns = unite<Fields<field::Position>, only_if<particles::is_mobile<Mobility>, field::Velocity, field::Acceleration>,
+                        only_if<particles::is_driven<Mobility>, StartPosition, field::Velocity>, only_if<has_substeps, FastAcceleration>,
+                        state, rates, std::conditional_t<KeepsRates, typename AllPrevious<rates>::type, Fields<>>>;
   using record = std::conditional_t<
       has_pairs || has_bonds,
       unite<Fields<field::Position>, only_if<(OfItem<Tag, Item>::uses_velocity || ...), field::Velocity>, subtract<reads, constants>>,
@@ -155,8 +169,8 @@ struct Compose {
 
 }  // namespace detail
 
-/// The layout of group G (a GroupItem) in a scene made of `Item...`.
-template <class G, class... Item>
-using Composition = typename detail::Compose<G, Item...>::type;
+/// The layout of group G (a GroupItem) in a scene made of `Item...`; KeepsRates: the integrator asks for the rates of the step before.
+template <class G, bool KeepsRates, class... Item>
+using Composition = typename detail::Compose<G, KeepsRates, Item...>::type;
 
 }  // namespace dmp::simulation

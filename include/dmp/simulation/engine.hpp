@@ -35,6 +35,11 @@ class Engine : public Forces<Dim, Integrator, Item...> {
       this->fast_forces();
     }
     this->forces(time, 0.0);
+    if constexpr (Integrator::keeps_rates)
+      for_each_group([](auto& g) {
+        for_each_field(typename LayoutOf<decltype(g)>::rates{},
+                       [&g]<class Rate>(Rate) { g.template get<Previous<Rate>>() = g.template get<Rate>(); });
+      });
   }
 
   /// First part of a step of length `dt` [s] that ends at `time` [s]: everything moves. Returns whether neighbour lists are worn out, so

@@ -11,8 +11,8 @@ namespace dmp::simulation {
 
 /// What a model's laws say of its present state: records of all particles, then sums over pairs and bonds, accelerations and rates.
 template <int Dim, class Integrator, class... Item>
-class Forces : public Model<Dim, Item...> {
-  using Base = Model<Dim, Item...>;
+class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
+  using Base = Model<Dim, Integrator::keeps_rates, Item...>;
 
  public:
   using Base::Base, Base::group, Base::for_each_group, Base::for_each_item;
@@ -116,7 +116,11 @@ class Forces : public Model<Dim, Item...> {
     [[maybe_unused]] const auto one = [&]<class F>(F) {
       double value = g.template get<F>()[i];
       for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
-        if constexpr (std::is_same_v<typename Rate::integrates, F>) value = Integrator::seen_state(value, g.template get<Rate>()[i], dt);
+        if constexpr (std::is_same_v<typename Rate::integrates, F>) {
+          const double rate = g.template get<Rate>()[i];
+          if constexpr (Integrator::keeps_rates) value = Integrator::seen_state(value, rate, g.template get<Previous<Rate>>()[i], dt);
+          else value = Integrator::seen_state(value, rate, rate, dt);
+        }
       });
       F::of(particle) = value;
     };
@@ -188,7 +192,11 @@ class Forces : public Model<Dim, Item...> {
               g.template get<field::Acceleration>()[i] = acceleration;
             }
           }
-          if constexpr (!Fast) for_each_field(typename C::rates{}, [&]<class Rate>(Rate) { g.template get<Rate>()[i] = Rate::of(total); });
+          if constexpr (!Fast)
+            for_each_field(typename C::rates{}, [&]<class Rate>(Rate) {
+              if constexpr (Integrator::keeps_rates) g.template get<Previous<Rate>>()[i] = g.template get<Rate>()[i];
+              g.template get<Rate>()[i] = Rate::of(total);
+            });
         }
       });
   }

@@ -44,11 +44,11 @@ using IsGroup = std::bool_constant<is_group<Item>>;
 template <class Item>
 using IsNotGroup = std::bool_constant<!is_group<Item>>;
 
-template <class List, class... Item>
+template <class List, bool KeepsRates, class... Item>
 struct Groups;
-template <class... G, class... Item>
-struct Groups<std::tuple<G...>, Item...> {
-  using type = std::tuple<Group<G, Composition<G, Item...>>...>;
+template <class... G, bool KeepsRates, class... Item>
+struct Groups<std::tuple<G...>, KeepsRates, Item...> {
+  using type = std::tuple<Group<G, Composition<G, KeepsRates, Item...>>...>;
 };
 template <class List>
 struct Actives;
@@ -59,10 +59,10 @@ struct Actives<std::tuple<Item...>> {
 }  // namespace detail
 
 /// The groups and items of a scene, and who is near whom. Knows no law's formula, no time and no integrator.
-template <int Dim, class... Item>
+template <int Dim, bool KeepsRates, class... Item>
 class Model {
  public:
-  using Groups = typename detail::Groups<detail::filter<detail::IsGroup, Item...>, Item...>::type;
+  using Groups = typename detail::Groups<detail::filter<detail::IsGroup, Item...>, KeepsRates, Item...>::type;
   static constexpr bool has_pairs = (is_interaction<Item> || ...);
 
   Model(const geometry::Box<Dim>& box, const Item&... item)
@@ -164,7 +164,7 @@ class Model {
     else return std::tuple<>();
   }
   static Groups make_groups(const auto& items) {
-    return std::apply([]<class... G>(const G&... item) { return Groups{Group<G, Composition<G, Item...>>(item)...}; }, items);
+    return std::apply([]<class... G>(const G&... item) { return Groups{Group<G, Composition<G, KeepsRates, Item...>>(item)...}; }, items);
   }
   static Items make_items(const auto& items) {
     return std::apply([]<class... I>(const I&... item) { return Items{detail::Active<I>{item}...}; }, items);
