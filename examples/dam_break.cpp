@@ -146,7 +146,7 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
   tank.rescue_to((folder / (dam.name + "_last_good.checkpoint")).string()).progress();
 
   // Run
-  result.add(tank.run({.until = dam.end_time, .safety = 0.5}));
+  result.add(tank.run({.until = dam.end_time}));
   result.particles += tank.particles();
   result.bytes_per_particle = bytes_per_particle(tank);
 

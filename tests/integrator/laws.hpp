@@ -54,6 +54,51 @@ template <class I>
   }
   return largest;
 }
+/// A state s with a rate that laws compute from the s that they see, beside a velocity: as density and flow in a scene.
+template <class I>
+class State {
+ public:
+  explicit State(double s) : s_(s) {}
+  /// One step of length 1 of ds/dt = v - damping s, dv/dt = -stiffness s; first of all the rates at the start.
+  void step(double damping, double stiffness) {
+    if (!started_) previous_ = rate_ = -damping * s_, a_ = -stiffness * s_, started_ = true;
+    double x = 0.0;
+    I::begin(x, v_, a_, 1.0);
+    I::begin_state(s_, rate_, 1.0);
+    const double seen = I::seen_state(s_, rate_, previous_, 1.0), velocity = I::seen(v_, a_, 1.0);
+    previous_ = rate_;
+    rate_ = velocity - damping * seen;
+    a_ = -stiffness * seen;
+    I::end(v_, a_, 1.0);
+    I::end_state(s_, rate_, 1.0);
+  }
+  [[nodiscard]] double value() const { return s_; }
+  [[nodiscard]] double velocity() const { return v_; }
+
+ private:
+  double s_, v_ = 0.0, rate_ = 0.0, previous_ = 0.0, a_ = 0.0;
+  bool started_ = false;
+};
+/// |s| after `steps` steps of ds/dt = -lambda s from s = 1.
+template <class I>
+[[nodiscard]] double state_left(double damping, int steps) {  // lambda dt
+  State<I> state(1.0);
+  for (int n = 0; n < steps; ++n) state.step(damping, 0.0);
+  return std::fabs(state.value());
+}
+/// Amplitude of sound after `steps` steps, from 1.
+template <class I>
+[[nodiscard]] double loudness(double oscillation, int steps) {  // omega dt
+  State<I> state(1.0);
+  double largest = 0.0;
+  for (int n = 0; n < steps && largest < 1e30; ++n) {
+    state.step(0.0, oscillation * oscillation);
+    if (n >= steps - static_cast<int>(7.0 / oscillation) || n >= steps - 10) largest = std::max(largest, std::fabs(state.value()));
+    if (std::fabs(state.value()) > 1e30) return std::fabs(state.value());
+  }
+  return largest;
+}
+
 /// |v| after `steps` steps of dv/dt = -lambda v from v = 1.
 template <class I>
 [[nodiscard]] double speed_left(double damping, int steps) {  // lambda dt
@@ -66,9 +111,10 @@ template <class I>
 struct Claims {
   double order;         ///< for forces of position
   double damped_order;  ///< for forces of velocity too, in the way it shows velocities to laws
-  double state_order;   ///< for a state such as density, whose rate changes with time
+  double state_order;   ///< for a state such as density under a given rate that changes with time
   bool position_exact;  ///< under constant acceleration; the velocity always is
   bool reversible;      ///< for forces of position
+  double sound_limit;   ///< sound, in which a state and the velocity drive each other, is stable for omega dt < this; 0: never
 };
 
 template <class I>
@@ -156,6 +202,18 @@ void check_integrator_laws(const Claims& claims) {
     return state - std::sin(3.0);
   };
   CHECK(test::observed_order(state_error, 400) == doctest::Approx(claims.state_order).epsilon(0.02));
+
+  // Stability of states: damping to the stated limit, sound to the stated limit or not at all.
+  const double state_damping = I::state_damping_limit;
+  CHECK(test::state_left<I>(0.95 * state_damping, 2000) < 1e-20);
+  CHECK(test::state_left<I>(1.05 * state_damping, 2000) > 1e10);
+  if (claims.sound_limit > 0.0) {
+    CHECK(test::loudness<I>(0.1, 100000) < 2.0);
+    CHECK(test::loudness<I>(0.95 * claims.sound_limit, 10000) < 2.0);
+    CHECK(test::loudness<I>(1.05 * claims.sound_limit, 10000) > 1e10);
+  } else {
+    CHECK(test::loudness<I>(0.1, 20000) > 1e10);
+  }
 
   // A vector moves as its components do.
   dmp::Vector<3> x(1.0, 2.0, 3.0), v(-1.0, 0.5, 0.25);
