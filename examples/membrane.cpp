@@ -113,7 +113,6 @@ int run(const example::Options& options) {
       bonds<Membrane, Membrane>(spring, tube.chain), bonds<Membrane, Wall>(spring, tube.anchors),
       material<Liquid, Wall, Membrane>(eos::Tait{.rest_density = density, .sound_speed_0 = sound_speed}, rheology::Constant{.dynamic_viscosity = 1e-3}),
       forced_by<Liquid>(push), forced_by<Liquid, Membrane>(drag));
-  balloon.engine().for_each_group([](auto& g) { g.template set<field::Density>([](const auto&) { return density; }); });
   std::fputs(describe(balloon).c_str(), stdout);
 
   // Observation

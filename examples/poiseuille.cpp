@@ -81,7 +81,6 @@ ProfileError flow(Drive drive, int rows, const io::OutputFolder& folder, example
       material<Water, LowerPlate, UpperPlate>(eos::Tait{.rest_density = density, .sound_speed_0 = 10.0 * top_speed},
                                               rheology::Constant{.dynamic_viscosity = viscosity_}),
       forced_by<Water>(forcing::Constant<2>{.uniform_acceleration = {{{force, 0.0}}}}));
-  channel.engine().for_each_group([](auto& g) { g.template set<field::Density>([](const auto&) { return density; }); });
 
   // The exact profile at a tenth of the diffusion time and at the end; the profile of the particles in a table.
   const std::string name = (drive == Drive::plate ? "couette_" : "poiseuille_") + std::to_string(rows);

@@ -59,9 +59,13 @@ template <class I>
 class State {
  public:
   explicit State(double s) : s_(s) {}
-  /// One step of length 1 of ds/dt = v - damping s, dv/dt = -stiffness s; first of all the rates at the start.
+  /// One step of length 1 of ds/dt = v - damping s, dv/dt = -stiffness s.
   void step(double damping, double stiffness) {
-    if (!started_) previous_ = rate_ = -damping * s_, a_ = -stiffness * s_, started_ = true;
+    if (!started_) {
+      previous_ = rate_ = -damping * s_;
+      a_ = -stiffness * s_;
+      started_ = true;
+    }
     double x = 0.0;
     I::begin(x, v_, a_, 1.0);
     I::begin_state(s_, rate_, 1.0);
@@ -73,7 +77,6 @@ class State {
     I::end_state(s_, rate_, 1.0);
   }
   [[nodiscard]] double value() const { return s_; }
-  [[nodiscard]] double velocity() const { return v_; }
 
  private:
   double s_, v_ = 0.0, rate_ = 0.0, previous_ = 0.0, a_ = 0.0;
@@ -86,15 +89,16 @@ template <class I>
   for (int n = 0; n < steps; ++n) state.step(damping, 0.0);
   return std::fabs(state.value());
 }
-/// Amplitude of sound after `steps` steps, from 1.
+/// Amplitude of sound after `steps` steps, from 1: the largest |s| of the last period.
 template <class I>
 [[nodiscard]] double loudness(double oscillation, int steps) {  // omega dt
   State<I> state(1.0);
+  const int period = static_cast<int>(7.0 / oscillation) + 1;
   double largest = 0.0;
   for (int n = 0; n < steps && largest < 1e30; ++n) {
     state.step(0.0, oscillation * oscillation);
-    if (n >= steps - static_cast<int>(7.0 / oscillation) || n >= steps - 10) largest = std::max(largest, std::fabs(state.value()));
-    if (std::fabs(state.value()) > 1e30) return std::fabs(state.value());
+    const double s = std::fabs(state.value());
+    if (n >= steps - period || s > 1e30) largest = std::max(largest, s);
   }
   return largest;
 }

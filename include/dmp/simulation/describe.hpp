@@ -26,6 +26,7 @@ template <class Scene>
 /// the law that binds the time step. What is not listed is not in the program.
 template <class Scene>
 [[nodiscard]] std::string describe(Scene& scene) {
+  const auto limit = scene.step_limit();
   std::ostringstream text;
   const auto fields = [&text]<class... Field>(Fields<Field...>) { ((text << ' ' << Field::name), ...); };
   text << "groups\n";
@@ -73,7 +74,6 @@ template <class Scene>
   if (!any) text << "  none\n";
   text << "each step: " << packs << " record passes, " << gathers << " gather sweeps, " << 2 * integrations << " integration passes";
   if constexpr (!std::remove_cvref_t<decltype(scene.engine())>::has_pairs) text << ", no neighbour lists, no ghosts";
-  const auto limit = scene.step_limit();
   text << "\ntime step <= " << limit.time_step << " s, bound by " << limit.bound_by << '\n';
   text << bytes_per_particle(scene) << " bytes per particle\n";
   return text.str();

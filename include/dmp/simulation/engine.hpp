@@ -101,7 +101,9 @@ class Engine : public Forces<Dim, Integrator, Item...> {
     if constexpr (evolves<G>)
       for_each_range(g.ranges, [&](std::size_t, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-          if constexpr (mobile<G>) Integrator::end(g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
+          if constexpr (LayoutOf<G>::has_substeps)
+            g.template get<field::Velocity>()[i] += 0.5 * dt * g.template get<field::Acceleration>()[i];  // the second slow kick
+          else if constexpr (mobile<G>) Integrator::end(g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
           for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
             Integrator::end_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
           });

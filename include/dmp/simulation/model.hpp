@@ -58,12 +58,33 @@ struct Actives<std::tuple<Item...>> {
 };
 }  // namespace detail
 
+namespace detail {
+template <int Dim, class Law>
+consteval bool law_fits() {
+  if constexpr (requires { Law::dimension; }) return Law::dimension == Dim;
+  return true;
+}
+template <int Dim, class Item>
+inline constexpr bool laws_fit = true;
+template <int Dim, class A, class B, class... Law>
+inline constexpr bool laws_fit<Dim, Interaction<A, B, Law...>> = (law_fits<Dim, Law>() && ...);
+template <int Dim, class Tags, class... Law>
+inline constexpr bool laws_fit<Dim, Forced<Tags, Law...>> = (forcing::explain_forcing<Law, Dim>() && ...);
+template <int Dim, class Tag, class M, int GroupDim>
+inline constexpr bool laws_fit<Dim, GroupItem<Tag, M, GroupDim>> = Dim == GroupDim;
+template <int Dim, class Item>
+consteval bool fits_dimension() {
+  return laws_fit<Dim, Item>;
+}
+}  // namespace detail
+
 /// The groups and items of a scene, and who is near whom. Knows no law's formula, no time and no integrator.
 template <int Dim, bool KeepsRates, class... Item>
 class Model {
  public:
   using Groups = typename detail::Groups<detail::filter<detail::IsGroup, Item...>, KeepsRates, Item...>::type;
   static constexpr bool has_pairs = (is_interaction<Item> || ...);
+  static_assert((detail::fits_dimension<Dim, Item>() && ...), "dmp: a law of the scene is made for another dimension than the box");
 
   Model(const geometry::Box<Dim>& box, const Item&... item)
       : box_(box),
@@ -124,11 +145,13 @@ class Model {
 
   template <class Tag>
   static consteval std::size_t index_of() {
-    std::size_t index = 0, found = std::tuple_size_v<Groups>;
-    [&]<class... G>(std::type_identity<std::tuple<G...>>) {
-      ((std::is_same_v<Tag, typename G::Tag> ? void(found = index++) : void(++index)), ...);
-    }(std::type_identity<Groups>{});
-    if (found == std::tuple_size_v<Groups>) throw "dmp: an item names a group that this scene does not hold";
+    constexpr std::size_t found = []<class... G>(std::type_identity<std::tuple<G...>>) consteval {
+      std::size_t index = 0, result = sizeof...(G);
+      ((result = std::is_same_v<Tag, typename G::Tag> ? index : result, ++index), ...);
+      return result;
+    }
+    (std::type_identity<Groups>{});
+    static_assert(found < std::tuple_size_v<Groups>, "dmp: an item of the scene names a group that the scene does not hold");
     return found;
   }
 
@@ -182,13 +205,16 @@ class Model {
   }
 
   template <class I>
-  void set_constants(const I& item) {
+  void set_constants(const I& item) {  // and the density at the start, where the equation of state has one of rest
     for_each_group([&](auto& g) {
       if constexpr (I::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
         std::apply(
             [&g]<class... Law>(const Law&... law) {
               const auto one = [&g]<class L>(const L& l) {
                 if constexpr (detail::is_constant<L>) l.apply(g.constants);
+                if constexpr (requires { l.eos.rest_density; } &&
+                              contains<field::Density, typename std::remove_cvref_t<decltype(g)>::Layout::columns>)
+                  g.template get<field::Density>().assign(g.size(), l.eos.rest_density);
               };
               (one(law), ...);
             },

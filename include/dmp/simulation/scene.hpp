@@ -90,7 +90,7 @@ class Scene {
   /// Every law's bound of the time step for the present state; the smallest one, and whose it is.
   [[nodiscard]] sweep::StepLimit step_limit() {
     prepare();
-    return find_step_limit<Integrator>(engine_, false);
+    return find_step_limit<Integrator>(engine_, has_substeps);
   }
 
   RunReport run(const RunOptions& options) {
@@ -104,49 +104,42 @@ class Scene {
     try {
       prepare();
       report.limit = find_step_limit<Integrator>(engine_, has_substeps);
-      double dt = options.time_step;
-      if (dt == 0.0) dt = options.safety * report.limit.time_step;
-      if (!(dt < std::numeric_limits<double>::infinity()))
+      const double first_step = options.time_step > 0.0 ? options.time_step : options.safety * report.limit.time_step;
+      if (!(first_step < std::numeric_limits<double>::infinity()))
         throw ParameterError("scene: no law of this scene bounds the time step; give one as time_step");
-      if (dt > report.limit.stable_time_step)
+      if (first_step > report.limit.stable_time_step)
         throw ParameterError("scene: time_step must be <= " + to_text(report.limit.stable_time_step) + " s, the bound of " +
-                             report.limit.stability_bound_by + ", got " + to_text(dt));
-      const double first_dt = dt;
-      if constexpr (has_substeps) engine_.set_substeps(substeps_for<Integrator>(engine_, dt));
+                             report.limit.stability_bound_by + ", got " + to_text(first_step));
+      if (options.time_step > 0.0 || clock_.time_step == 0.0) choose_step(first_step);
       check();
       Progress bar(shows_progress_, clock_.time, options.until);
-      observe(dt);
-      double base_time = clock_.time;
-      std::uint64_t base_step = clock_.step;
-      while (clock_.time < options.until - 0.5 * dt) {
+      observe();
+      while (clock_.time < options.until - 0.5 * clock_.time_step) {
         if (options.time_step == 0.0 && clock_.step % 10 == 0) {
           const auto limit = find_step_limit<Integrator>(engine_, has_substeps);
           if (limit.time_step < report.limit.time_step) report.limit = limit;
-          dt = options.safety * limit.time_step;
-          if (!(dt > 1e-6 * first_dt))
+          choose_step(options.safety * limit.time_step);
+          if (!(clock_.time_step > 1e-6 * first_step))
             throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")",
-                                  {clock_.time, clock_.step, "", -1, "time_step", dt});
-          base_time = clock_.time;
-          base_step = clock_.step;
-          if constexpr (has_substeps) engine_.set_substeps(substeps_for<Integrator>(engine_, dt));
+                                  {clock_.time, clock_.step, "", -1, "time_step", clock_.time_step});
         }
-        ++clock_.step;
-        clock_.time = base_time + static_cast<double>(clock_.step - base_step) * dt;
-        if (engine_.begin_step(dt, clock_.time)) {
+        clock_.tick();
+        if (engine_.begin_step(clock_.time_step, clock_.time)) {
           check();
           engine_.build_lists();
         }
-        engine_.finish_step(dt, clock_.time);
+        engine_.finish_step(clock_.time_step, clock_.time);
         if (clock_.step % options.check_every == 0) check();
-        observe(dt);
+        observe();
         bar.show(clock_.time);
         ++report.steps;
       }
       check();
-      report.time_step = dt;
-      report.step_bound_by = options.time_step == 0.0 ? report.limit.bound_by
-                                                      : "given, " + to_text(std::round(100.0 * dt / report.limit.stable_time_step)) +
-                                                            " % of the bound of " + report.limit.stability_bound_by;
+      report.time_step = clock_.time_step;
+      report.step_bound_by = options.time_step == 0.0
+                                 ? report.limit.bound_by
+                                 : "given, " + to_text(std::round(100.0 * clock_.time_step / report.limit.stable_time_step)) +
+                                       " % of the bound of " + report.limit.stability_bound_by;
     } catch (const SimulationError&) {
       rescue();
       throw;
@@ -170,6 +163,8 @@ class Scene {
   void restart(const std::string& path) {
     clock_ = read_checkpoint(path, signature(), views());
     engine_.build_lists();
+    if constexpr (has_substeps)
+      if (clock_.time_step > 0.0) engine_.set_substeps(substeps_for<Integrator>(engine_, clock_.time_step));
     prepared_ = true;
   }
   /// What a checkpoint must agree with: dimension, integrator, groups, mobilities, columns.
@@ -191,9 +186,13 @@ class Scene {
     prepared_ = true;
   }
 
-  void observe(double dt) {
+  void choose_step(double dt) {
+    clock_.choose(dt);
+    if constexpr (has_substeps) engine_.set_substeps(substeps_for<Integrator>(engine_, dt));
+  }
+  void observe() {
     for (auto& observer : observers_) {
-      const auto due = static_cast<std::int64_t>(std::floor((clock_.time + 0.5 * dt) / observer.interval));
+      const auto due = static_cast<std::int64_t>(std::floor((clock_.time + 0.5 * clock_.time_step) / observer.interval));
       if (due <= observer.done) continue;
       observer.done = due;
       observer.call(*this);

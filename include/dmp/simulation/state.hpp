@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,8 +15,23 @@ namespace dmp::simulation {
 
 /// When a state is.
 struct Clock {
-  double time = 0.0;       ///< [s]
-  std::uint64_t step = 0;  ///< since the very start
+  double time = 0.0;            ///< [s]
+  std::uint64_t step = 0;       ///< since the very start
+  double time_step = 0.0;       ///< [s] of the step under way, 0 before the first
+  double base_time = 0.0;       ///< [s] when this time step was chosen: time = base_time + (step - base_step) time_step
+  std::uint64_t base_step = 0;  ///< step at that time
+
+  /// From here on steps of `dt` [s]. The same step again changes nothing, so that a run in two parts does the arithmetic of one.
+  void choose(double dt) noexcept {
+    if (dt == time_step) return;
+    time_step = dt;
+    base_time = time;
+    base_step = step;
+  }
+  void tick() noexcept {
+    ++step;
+    time = base_time + static_cast<double>(step - base_step) * time_step;
+  }
 };
 
 /// Names dimension, integrator, groups, mobilities and columns: a checkpoint of another composition does not fit.
@@ -89,8 +105,10 @@ struct Snapshot {
 
 namespace detail {
 inline void write_clock(io::CheckpointWriter& writer, const Clock& clock) {
-  writer.add("time", std::span<const double>(&clock.time, 1));
-  writer.add("step", std::span<const std::uint64_t>(&clock.step, 1));
+  const std::array<double, 3> times{clock.time, clock.time_step, clock.base_time};
+  const std::array<std::uint64_t, 2> steps{clock.step, clock.base_step};
+  writer.add("clock.times", std::span<const double>(times));
+  writer.add("clock.steps", std::span<const std::uint64_t>(steps));
 }
 [[nodiscard]] inline std::string section(const particles::GroupView& group, std::string_view what) {
   return group.name + "." + std::string(what);
@@ -133,10 +151,10 @@ inline void write_checkpoint(const std::string& path, const std::string& signatu
       throw io::CheckpointError(path + ": section " + section + " must hold " + std::to_string(wanted) + " numbers, got " +
                                 std::to_string(got));
   };
-  const auto time = reader.template read<double>("time");
-  const auto step = reader.template read<std::uint64_t>("step");
-  fits("time", time.size(), 1);
-  fits("step", step.size(), 1);
+  const auto time = reader.template read<double>("clock.times");
+  const auto step = reader.template read<std::uint64_t>("clock.steps");
+  fits("clock.times", time.size(), 3);
+  fits("clock.steps", step.size(), 2);
   for (const auto& group : groups) {
     for (const auto& column : group.columns) {
       columns.push_back(reader.template read<double>(detail::section(group, column.name)));
@@ -150,7 +168,7 @@ inline void write_checkpoint(const std::string& path, const std::string& signatu
     for (const auto& column : groups[g].columns) std::copy(columns[next].begin(), columns[next].end(), column.values.begin()), ++next;
     std::copy(ids[g].begin(), ids[g].end(), groups[g].id.begin());
   }
-  return {time[0], step[0]};
+  return {time[0], step[0], time[1], time[2], step[1]};
 }
 
 }  // namespace dmp::simulation

@@ -75,7 +75,8 @@ template <class L>
   if constexpr (potential::PairPotential<L>) {
     return PotentialForce<L>{law};
   } else {
-    static_assert(explain_pair_law<L>());
+    if constexpr (requires { law.force_factor(1.0); }) static_assert(potential::explain_pair_potential<L>());
+    else static_assert(explain_pair_law<L>());
     return law;
   }
 }

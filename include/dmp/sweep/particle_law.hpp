@@ -86,7 +86,10 @@ template <class L>
   } else if constexpr (ViscosityOfTemperature<L>) {
     return ViscosityFrom<L>{law};
   } else {
-    static_assert(explain_particle_law<L>());
+    if constexpr (
+        requires { law.rest_density; } || requires { law.pressure(1.0); })
+      static_assert(eos::explain_equation_of_state<L>());
+    else static_assert(explain_particle_law<L>());
     return law;
   }
 }
