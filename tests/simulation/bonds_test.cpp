@@ -168,7 +168,7 @@ TEST_CASE("KV-5: k = 2K: stock LAMMPS with K = k/2 and a dashpot on the half-ste
   CHECK(std::fabs(extension(pair) - 0.26436379) <= 5.1e-9);  // sheet 06, section 8
 }
 
-TEST_CASE("a held bead: the bound of the step is that of the free bead's mass alone" * doctest::should_fail()) {  // taken as if both moved
+TEST_CASE("a held bead: the bound of the step is that of the free bead's mass alone") {  // taken as if both moved
   auto spring = bead_pair<Leapfrog, Frozen<1>>({.stiffness = 9.0, .damping = 0.0}, {});
   CHECK(spring.step_limit().stable_time_step == doctest::Approx(2.0 / 3.0).epsilon(1e-12));
   auto dashpot = bead_pair<Leapfrog, Frozen<1>>({.stiffness = 0.0, .damping = 20.0}, {});
@@ -375,17 +375,15 @@ TEST_CASE("the stiffness bound is where it ends: a ring is stable at 0.95 of it,
     text = error.what();
     where = error.where;
   }
-  CHECK(where.step > 100);
+  CHECK(where.step > 0);
   CHECK(where.step < 5000);
   CHECK(where.step % 50 == 0);
   CHECK(where.time == doctest::Approx(static_cast<double>(where.step) * 1.05 * limit.time_step).epsilon(1e-12));
   CHECK(where.group == "net");
   CHECK(where.particle >= 0);
   CHECK(where.particle < 16);
-  CHECK(where.field == "position");
-  CHECK_FALSE(std::isfinite(where.value));
-  for (const std::string& part : {" at t = " + to_text(where.time) + " s", ", step " + std::to_string(where.step), std::string(", group net"),
-                                  ", particle " + std::to_string(where.particle), ", position = " + to_text(where.value)})
+  for (const std::string& part : {std::string("a bond has become longer than 0.45 of the periodic box"), " at t = " + to_text(where.time) + " s",
+                                  ", step " + std::to_string(where.step), std::string(", group net"), ", particle " + std::to_string(where.particle)})
     CHECK(text.find(part) != std::string::npos);
 }
 
@@ -407,7 +405,7 @@ TEST_CASE("the dashpot bound is where it ends") {
   CHECK_THROWS_AS(careless.run({.until = 1e6, .time_step = 1.05 * limit.time_step}), SimulationError);
 }
 
-TEST_CASE("spring and dashpot together: stable at 0.95 of the bound, and its 1.5-fold blows up" * doctest::should_fail()) {  // true: (omega dt/2)^2 + lambda dt/2 < 1
+TEST_CASE("spring and dashpot together: stable at 0.95 of the bound, and its 1.5-fold blows up") {  // true: (omega dt/2)^2 + lambda dt/2 < 1
   for (const double damping : {1.0, 5.0, 20.0}) {  // lambda = 4 c/m below, at and above omega = 20/s
     CAPTURE(damping);
     const bond::KelvinVoigt law{.stiffness = 100.0, .damping = damping};
@@ -551,7 +549,7 @@ TEST_CASE("sub-stepped bonds keep the energy over 10000 steps though one bond is
   CHECK(velocities(soft).sum() == doctest::Approx(0.0).epsilon(1e-10));
 }
 
-TEST_CASE("bonds declared by several items: stable at 0.95 of the bound" * doctest::should_fail()) {  // each item's bound is taken alone
+TEST_CASE("bonds declared by several items: stable at 0.95 of the bound") {  // each item's bound is taken alone
   // A ring of four, S0 - S1 - T1 - T0 - S0: one bond per bead in each item, two in all. Its fastest motion has omega^2 = 4 k/m.
   const bond::Harmonic spring{.stiffness = 1.0};
   auto ring = scene<Leapfrog>(Box<1>::unbounded(), group<Soft>("soft", Mobile{}, Points<1>{{Vector<1>(0.0), Vector<1>(1.0)}}, 1.0),
@@ -565,7 +563,7 @@ TEST_CASE("bonds declared by several items: stable at 0.95 of the bound" * docte
   CHECK(std::fabs(ring.group<Stiff>().positions()[0][0] - 3.0) < 1e-2);
 }
 
-TEST_CASE("beside sub-stepped bonds the other forces act in full, whatever the integrator: a bonded pair falls with g" * doctest::should_fail()) {  // half of them, with symplectic Euler
+TEST_CASE("beside sub-stepped bonds the other forces act in full, whatever the integrator: a bonded pair falls with g") {  // half of them, with symplectic Euler
   const auto fallen = []<class Integrator>(Integrator) {
     auto pair = scene<Integrator>(Box<1>::unbounded(), group<Stiff>("stiff", Mobile{}, Points<1>{{Vector<1>(0.0), Vector<1>(1.0)}}, 1.0),
                                   substepped_bonds<Stiff, Stiff>(bond::Harmonic{.stiffness = 1e4}, {{0, 1}}), forced_by<Stiff>(forcing::Constant<1>{.uniform_acceleration = {{{-10.0}}}}));

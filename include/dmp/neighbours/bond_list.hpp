@@ -60,7 +60,6 @@ class BondList {
     });
     for (std::size_t i = 0; i < particles; ++i)
       for (std::uint32_t k = cursor[i]; k < offset_[i + 1]; ++k) partner_[k] = partner_[cursor[i] - 1];
-    most_bonds_ = count.empty() ? 0 : *std::max_element(count.begin(), count.end());
   }
 
   /// Partners and rest lengths of particle i, whole packs.
@@ -75,7 +74,6 @@ class BondList {
     return packs(i).first(count);
   }
   [[nodiscard]] bool empty() const noexcept { return partner_.empty(); }
-  [[nodiscard]] std::uint32_t most_bonds() const noexcept { return most_bonds_; }  ///< of any particle
   [[nodiscard]] std::size_t bytes() const noexcept {
     return offset_.size() * sizeof(std::uint32_t) + partner_.size() * (sizeof(std::uint32_t) + sizeof(double));
   }
@@ -83,7 +81,6 @@ class BondList {
  private:
   std::vector<std::uint32_t> offset_{0}, partner_;
   std::vector<double> rest_length_;
-  std::uint32_t most_bonds_ = 0;
 };
 
 /// Fills in the rest lengths left open, and rejects what is not a bond: an end that does not exist, both ends the same particle, length

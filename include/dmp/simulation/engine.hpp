@@ -32,6 +32,7 @@ class Engine : public Forces<Dim, Integrator, Item...> {
   void evaluate(double time) {
     this->build_lists();
     if constexpr (has_substeps) {
+      this->pack_all(0.0);
       this->fast_forces();
     }
     this->forces(time, 0.0);

@@ -68,15 +68,20 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
   template <class G>
   static constexpr bool mobile = Base::template mobile<G>;
 
-  void forces(double time, double dt) {
+  void pack_all(double dt) {
     for_each_group([&](auto& g) {
       if constexpr (LayoutOf<decltype(g)>::has_records && evolves<decltype(g)>) pack(g, dt);
     });
+  }
+  void forces(double time, double dt) {
+    pack_all(dt);
     for_each_group([&](auto& g) { gather<false>(g, time, dt); });
   }
+  /// Sub-stepped bonds alone; of the groups at their ends only those that have moved are packed again.
   void fast_forces() {
     for_each_group([&](auto& g) {
-      if constexpr (LayoutOf<decltype(g)>::has_records && evolves<decltype(g)>) pack(g, 0.0);
+      using G = std::remove_cvref_t<decltype(g)>;
+      if constexpr (LayoutOf<G>::has_substeps || (LayoutOf<G>::has_bonds && particles::is_driven<typename G::Mobility>)) pack(g, 0.0);
     });
     for_each_group([&](auto& g) {
       if constexpr (LayoutOf<decltype(g)>::has_substeps) gather<true>(g, 0.0, 0.0);

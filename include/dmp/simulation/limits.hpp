@@ -52,24 +52,58 @@ template <class Integrator, class Engine, class G>
   return state;
 }
 
-/// omega^2 <= 2 n k/m and lambda <= 2 n c/m for a particle with n bonds (Gershgorin's circles of the stiffness matrix).
-template <class Integrator, class Engine, class Active>
-void limit_bonds(const Engine& engine, const Active& active, sweep::StepLimit& limit) {
-  using I = std::remove_cvref_t<decltype(active.item)>;
-  const auto end = [&](const auto& g, const neighbours::BondList& list) {
-    if constexpr (particles::is_mobile<typename std::remove_cvref_t<decltype(g)>::Mobility>) {
-      const double per_mass = 2.0 * list.most_bonds() / g.mass;
-      const double stiffness = active.item.law.largest_stiffness();
-      if (stiffness * per_mass > 0.0)
-        limit.require_below(Integrator::oscillation_limit / std::sqrt(stiffness * per_mass), "bond stiffness");
-      if constexpr (bond::UsesVelocity<decltype(active.item.law)>) {
-        const double damping = active.item.law.largest_damping();
-        if (damping * per_mass > 0.0) limit.require_below(Integrator::damping_limit / (damping * per_mass), "bond dashpot");
+enum class BondKind { all, slow, fast };  ///< fast: the sub-stepped ones
+
+/// What bonds and drags do to the particles of a group: omega^2 <= sum of f k/m and lambda <= sum of f c/m over the bonds of one particle,
+/// plus the drag rates (Gershgorin's circles of the stiffness matrix); f = 2, or 1 where the partner cannot move. Spring and dashpot
+/// together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1.
+template <class Integrator, class Engine, class G>
+void limit_group(const Engine& engine, const G& g, BondKind kind, sweep::StepLimit& limit) {
+  if constexpr (particles::is_mobile<typename G::Mobility>) {
+    std::vector<double> stiffness, dashpot;  // omega^2 and lambda of each particle; empty without bonds
+    double drag = 0.0;
+    engine.for_each_item([&](const auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_bonds<I>) {
+        if (kind == (I::substepped ? BondKind::slow : BondKind::fast)) return;
+        const auto add = [&]<class Partner>(const Partner&, const neighbours::BondList& list) {
+          const double per_mass = (particles::is_mobile<typename Partner::Mobility> ? 2.0 : 1.0) / g.mass;
+          double damping = 0.0;
+          if constexpr (bond::UsesVelocity<decltype(active.item.law)>) damping = active.item.law.largest_damping();
+          stiffness.resize(g.size(), 0.0);
+          dashpot.resize(g.size(), 0.0);
+          for (std::size_t i = 0; i < g.size(); ++i) {
+            const double bonds = static_cast<double>(list.partners(i).size()) * per_mass;
+            stiffness[i] += active.item.law.largest_stiffness() * bonds;
+            dashpot[i] += damping * bonds;
+          }
+        };
+        if constexpr (std::is_same_v<typename G::Tag, typename I::A>) add(engine.template group<typename I::B>(), active.of_a);
+        else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) add(engine.template group<typename I::A>(), active.of_b);
       }
+      if constexpr (is_forced<I>)
+        if constexpr (I::template concerns<typename G::Tag>)
+          std::apply(
+              [&](const auto&... law) {
+                const auto one = [&](const auto& l) {
+                  if constexpr (requires { l.damping_rate(g.mass); })
+                    if (kind != BondKind::fast) drag += l.damping_rate(g.mass);
+                };
+                (one(law), ...);
+              },
+              active.item.laws);
+    });
+    if (drag > 0.0) limit.require_below(Integrator::damping_limit / drag, "drag");
+    for (std::size_t i = 0; i < stiffness.size(); ++i) {
+      const double per_damping = (dashpot[i] + drag) / Integrator::damping_limit;
+      if (stiffness[i] == 0.0) {
+        if (dashpot[i] > 0.0) limit.require_below(1.0 / per_damping, "bond dashpot");
+        continue;
+      }
+      const double oscillation = Integrator::oscillation_limit / std::sqrt(stiffness[i]), half = 0.5 * oscillation * per_damping;
+      limit.require_below(oscillation * (std::sqrt(half * half + 1.0) - half), half < 0.5 ? "bond stiffness" : "bond dashpot");
     }
-  };
-  end(engine.template group<typename I::A>(), active.of_a);
-  if constexpr (!std::is_same_v<typename I::A, typename I::B>) end(engine.template group<typename I::B>(), active.of_b);
+  }
 }
 
 }  // namespace detail
@@ -100,22 +134,9 @@ template <class Integrator, class Engine>
       both.mass = std::min(both.mass, other.mass);
       std::apply([&](const auto&... law) { (law.step_limits(both, limit), ...); }, active.item.laws);
     }
-    if constexpr (is_bonds<I>) {
-      if (!(I::substepped && without_substepped)) detail::limit_bonds<Integrator>(engine, active, limit);
-    }
-    if constexpr (is_forced<I>)
-      engine.for_each_group([&](const auto& g) {
-        if constexpr (I::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
-          std::apply(
-              [&](const auto&... law) {
-                const auto one = [&](const auto& l) {
-                  if constexpr (requires { l.damping_rate(g.mass); })
-                    if (l.damping_rate(g.mass) > 0.0) limit.require_below(Integrator::damping_limit / l.damping_rate(g.mass), "drag");
-                };
-                (one(law), ...);
-              },
-              active.item.laws);
-      });
+  });
+  engine.for_each_group([&](const auto& g) {
+    detail::limit_group<Integrator>(engine, g, without_substepped ? detail::BondKind::slow : detail::BondKind::all, limit);
   });
   return limit;
 }
@@ -129,10 +150,10 @@ template <class Integrator, class Engine>
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_bonds<I>)
       if constexpr (I::substepped) {
-        detail::limit_bonds<Integrator>(engine, active, fast);
         asked = std::max(asked, active.item.substeps);
       }
   });
+  engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, detail::BondKind::fast, fast); });
   const double needed = std::ceil(dt / (0.9 * fast.time_step));
   if (asked > 0 && dt / asked > fast.time_step)
     throw ParameterError("substepped_bonds: substeps must be >= " + to_text(std::ceil(dt / fast.time_step)) + " for a step of " +

@@ -128,6 +128,20 @@ class Model {
     std::apply([&](const auto&... active) { (function(active), ...); }, items_);
   }
 
+  /// Row in the first group of a bond that is longer than 0.45 of a periodic box, and nearly took the shorter way round; -1 if there is
+  /// none.
+  template <class I>
+  [[nodiscard]] std::int64_t find_long_bond(const I& item) const {
+    const auto& a = group<typename I::A>().positions();
+    const auto& b = group<typename I::B>().positions();
+    for (const auto& bond : item.bonds) {
+      const Vector<Dim> apart = neighbours::minimum_image<Dim>(a[bond.i] - b[bond.j], box_);
+      for (int d = 0; d < Dim; ++d)
+        if (const double period = periods_[static_cast<std::size_t>(d)]; period > 0.0 && std::fabs(apart[d]) > 0.45 * period) return bond.i;
+    }
+    return -1;
+  }
+
   [[nodiscard]] const geometry::Box<Dim>& box() const noexcept { return box_; }
   [[nodiscard]] double skin() const noexcept { return skin_; }
   [[nodiscard]] double longest_cutoff() const noexcept { return longest_cutoff_; }

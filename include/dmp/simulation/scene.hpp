@@ -248,6 +248,15 @@ class Scene {
     const Fault found = fault();
     if (!found.what.empty())
       throw SimulationError("a value " + found.what, {clock_.time, clock_.step, found.group, found.particle, found.field, found.value});
+    engine_.for_each_item([this](const auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_bonds<I>) {
+        const auto& a = engine_.template group<typename I::A>();
+        const std::int64_t row = engine_.find_long_bond(active.item);
+        if (row >= 0)
+          throw SimulationError("a bond has become longer than 0.45 of the periodic box", {clock_.time, clock_.step, a.name, row, "", 0.0});
+      }
+    });
     if (!rescue_path_.empty()) last_good_.take(views(), clock_);
   }
   /// The same before anything is computed.

@@ -92,7 +92,7 @@ template <int Dim, bool Periodic, class I, class Source, class Sums, class Law>
     } else {
       tension = law.tension(bond::Stretch<Lanes>{length, rest_length});
     }
-    sums.force -= select(rest_length >= 0.0, tension * inverse, 0.0) * separation;
+    sums.force -= select(rest_length >= 0.0 && length_squared > 0.0, tension * inverse, 0.0) * separation;
   }
 }
 
