@@ -50,7 +50,7 @@ constexpr void for_each_field(Fields<Field...>, Function&& function) {
 
 /// The fields that laws read and write. Each has a name (output, errors), a unit, and a `Slot`: the member through which a law sees
 /// it (`i.density`). A state that must stay > 0 says `is_positive`; a rate says what it
-/// `integrates`, and how it is called when it is a step old. A law may bring fields of its own: any struct of this shape will do.
+/// `integrates`. A law may bring fields of its own: any struct of this shape will do.
 namespace field {
 
 struct Position {
@@ -111,7 +111,7 @@ struct Density {
 };
 struct DensityRate {
   using integrates = Density;
-  static constexpr std::string_view name = "density_rate", previous_name = "previous_density_rate", unit = "kg/m^3/s";
+  static constexpr std::string_view name = "density_rate", unit = "kg/m^3/s";
   static constexpr bool is_vector = false;
   template <int Dim, class T>
   struct Slot {

@@ -1,4 +1,7 @@
 #pragma once
+#include <algorithm>
+#include <array>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <dmp/core/field.hpp>
@@ -124,7 +127,14 @@ struct Layout {
 /// A rate of change as it was one step ago, for integrators that extrapolate the state.
 template <class Rate>
 struct Previous {
-  static constexpr std::string_view name = Rate::previous_name, unit = Rate::unit;
+  static constexpr std::string_view prefix = "previous_";
+  static constexpr auto text = [] {
+    std::array<char, prefix.size() + Rate::name.size()> both{};
+    std::copy(prefix.begin(), prefix.end(), both.begin());
+    std::copy(Rate::name.begin(), Rate::name.end(), both.begin() + prefix.size());
+    return both;
+  }();
+  static constexpr std::string_view name{text.data(), text.size()}, unit = Rate::unit;
   static constexpr bool is_vector = Rate::is_vector;
 };
 
