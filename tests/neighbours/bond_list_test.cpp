@@ -75,13 +75,13 @@ TEST_CASE("a bond is refused with its ends and the reason: itself, nobody there,
   CHECK(complaint({{0, 1}, {1, 2}, {1, 0}}) == "bonds of net: the same two particles must not be bonded twice, got bond (0, 1)");
 }
 
-TEST_CASE("a bond is refused when its rest length is no number, or it is not shorter than half a periodic box") {
+TEST_CASE("a bond is refused when its rest length is no number, or it is longer than 0.45 of a periodic box") {
   CHECK(complaint({{0, 1, NAN}}) == "bonds of net: rest_length must be finite, got bond (0, 1)");
   CHECK(complaint({{0, 1, INFINITY}}) == "bonds of net: rest_length must be finite, got bond (0, 1)");
-  CHECK(complaint({{0, 1, 0.5}}, periodic) == "bonds of net: length must be < half the periodic box, got bond (0, 1)");
-  CHECK(complaint({{0, 1, 0.499}}, periodic).empty());
+  CHECK(complaint({{0, 1, 0.5}}, periodic) == "bonds of net: length must be <= 0.45 of the periodic box, got bond (0, 1)");
+  CHECK(complaint({{0, 1, 0.449}}, periodic).empty());
   CHECK(complaint({{0, 1, 0.5}}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {false, true}}) ==
-        "bonds of net: length must be < half the periodic box, got bond (0, 1)");
+        "bonds of net: length must be <= 0.45 of the periodic box, got bond (0, 1)");
   CHECK(complaint({{0, 1, 7.0}}).empty());  // no box to be longer than
   std::vector<Bond> half{{0, 1}};
   const test::Cloud<1> points{Vector<1>(0.0), Vector<1>(0.5)};

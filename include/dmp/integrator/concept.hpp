@@ -46,9 +46,11 @@ consteval bool explain_integrator() {
       requires {
         I::oscillation_limit;
         I::damping_limit;
+        I::state_damping_limit;
+        I::keeps_rates;
         I::name;
       },
-      "dmp: not an Integrator: no `oscillation_limit`, `damping_limit` and `name`");
+      "dmp: not an Integrator: no `oscillation_limit`, `damping_limit`, `state_damping_limit`, `keeps_rates` and `name`");
   return Integrator<I>;
 }
 

@@ -19,6 +19,9 @@ struct Bond {
   double rest_length = -1.0;  ///< r0 [m], >= 0; negative: the initial distance
 };
 
+/// Longest bond, in each direction, as a fraction of a periodic box: beyond one half the shortest way would be another bond.
+inline constexpr double longest_periodic_bond = 0.45;
+
 /// Vector from b to a, by the shortest way through the periodic faces.
 template <int Dim>
 [[nodiscard]] Vector<Dim> minimum_image(Vector<Dim> a_minus_b, const geometry::Box<Dim>& box) noexcept {
@@ -84,7 +87,7 @@ class BondList {
 };
 
 /// Fills in the rest lengths left open, and rejects what is not a bond: an end that does not exist, both ends the same particle, length
-/// zero, the same bond twice, or longer than half a periodic box (its shortest way would be ambiguous).
+/// zero, the same bond twice, or longer than 0.45 of a periodic box (at half of it the shortest way becomes ambiguous).
 template <int Dim>
 void complete_bonds(std::vector<Bond>& bonds, std::span<const Vector<Dim>> first, std::span<const Vector<Dim>> second, bool same_group,
                     const geometry::Box<Dim>& box, const std::string& name) {
@@ -106,8 +109,8 @@ void complete_bonds(std::vector<Bond>& bonds, std::span<const Vector<Dim>> first
     if (!(bond.rest_length - bond.rest_length == 0.0)) fail(bond, "rest_length must be finite");
     for (int d = 0; d < Dim; ++d)
       if (box.periodic[static_cast<std::size_t>(d)] &&
-          std::max(std::fabs(apart[d]), bond.rest_length) >= 0.5 * (box.upper[d] - box.lower[d]))
-        fail(bond, "length must be < half the periodic box");
+          std::max(std::fabs(apart[d]), bond.rest_length) > longest_periodic_bond * (box.upper[d] - box.lower[d]))
+        fail(bond, "length must be <= 0.45 of the periodic box");
     ends.emplace_back(same_group ? std::min(bond.i, bond.j) : bond.i, same_group ? std::max(bond.i, bond.j) : bond.j);
   }
   std::sort(ends.begin(), ends.end());

@@ -87,6 +87,11 @@ class CellGrid {
     }
   }
 
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return (start_.capacity() + cell_.capacity() + cursor_.capacity() + row_.capacity()) * sizeof(std::uint32_t) +
+           Dim * coordinate_[0].capacity() * sizeof(double);
+  }
+
  private:
   using Lanes = Pack<double, native_width<double>>;
   static constexpr std::size_t padding = Lanes::width;

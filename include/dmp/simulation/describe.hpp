@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -6,7 +7,7 @@
 
 namespace dmp::simulation {
 
-/// Bytes that a scene holds per particle: columns, ids, records (with ghosts) and lists.
+/// Bytes that a scene holds per particle: columns, ids, records, ghosts, cell grid and lists.
 template <class Scene>
 [[nodiscard]] double bytes_per_particle(const Scene& scene) {
   double bytes = 0.0;
@@ -14,12 +15,14 @@ template <class Scene>
     using G = std::remove_cvref_t<decltype(g)>;
     bytes += static_cast<double>(g.size() * (G::Columns::bytes_per_particle + sizeof(std::uint32_t)));
     if constexpr (G::Layout::has_records) bytes += static_cast<double>(g.records.size() * G::Records::bytes_per_particle());
-    if constexpr (G::Layout::has_pairs) bytes += static_cast<double>(g.size() * sizeof(Vector<G::Dim>));  // at_list_build
+    if constexpr (G::Layout::has_pairs)
+      bytes += static_cast<double>(g.at_list_build.size() * sizeof(Vector<G::Dim>) + g.grid.bytes() +
+                                   g.ghosts.size() * (sizeof(std::uint32_t) + sizeof(Vector<G::Dim>)));
   });
   scene.engine().for_each_item([&bytes](const auto& active) {
     if constexpr (requires { active.of_a.bytes(); }) bytes += static_cast<double>(active.of_a.bytes() + active.of_b.bytes());
   });
-  return bytes / static_cast<double>(scene.particles());
+  return bytes / static_cast<double>(std::max<std::size_t>(1, scene.particles()));
 }
 
 /// What a scene consists of, and therefore what it costs: groups with their columns and records, interactions, sweeps of one step, and
@@ -72,6 +75,8 @@ template <class Scene>
     }
   });
   if (!any) text << "  none\n";
+  if constexpr (std::remove_cvref_t<decltype(scene.engine())>::has_substeps)
+    text << "sub-steps of the sub-stepped bonds: as many as the step asks for, each one record pass and one gather sweep of its groups\n";
   text << "each step: " << packs << " record passes, " << gathers << " gather sweeps, " << 2 * integrations << " integration passes";
   if constexpr (!std::remove_cvref_t<decltype(scene.engine())>::has_pairs) text << ", no neighbour lists, no ghosts";
   text << "\ntime step <= " << limit.time_step << " s, bound by " << limit.bound_by << '\n';

@@ -30,9 +30,11 @@ class Engine : public Forces<Dim, Integrator, Item...> {
 
   /// Accelerations and rates from the present state, e.g. before the first step; `time` [s] as forcings see it.
   void evaluate(double time) {
+    for_each_group([&](auto& g) {
+      for (std::size_t i = 0; i < g.size(); ++i) follow_motion(g, i, time);
+    });
     this->build_lists();
     if constexpr (has_substeps) {
-      this->pack_all(0.0);
       this->fast_forces();
     }
     this->forces(time, 0.0);
@@ -82,19 +84,32 @@ class Engine : public Forces<Dim, Integrator, Item...> {
       for (std::size_t i = first; i < last; ++i) {
         if constexpr (mobile<G>) {
           Integrator::begin(g.positions()[i], g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
-        } else if constexpr (particles::is_driven<typename G::Mobility>) {
-          g.positions()[i] = g.mobility.motion.position(g.template get<StartPosition>()[i], time);
-          g.template get<field::Velocity>()[i] = g.mobility.motion.velocity(g.template get<StartPosition>()[i], time);
+        } else {
+          follow_motion(g, i, time);
         }
         for_each_field(typename C::rates{}, [&]<class Rate>(Rate) {
           Integrator::begin_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
         });
-        if constexpr (G::Mobility::moves && C::has_pairs)
-          farthest = std::max(farthest, (g.positions()[i] - g.at_list_build[i]).squaredNorm());
+        if constexpr (G::Mobility::moves && C::has_pairs) farthest = std::max(farthest, displacement(g, i));
       }
       farthest_[range] = farthest;
     });
     this->moved_[Base::template index_of<typename G::Tag>()] = std::sqrt(*std::max_element(farthest_.begin(), farthest_.end()));
+  }
+
+  /// Puts a particle of a driven group where its motion has it at `time`; nothing for other groups.
+  template <class G>
+  void follow_motion(G& g, std::size_t i, double time) {
+    if constexpr (particles::is_driven<typename G::Mobility>) {
+      const auto& start = g.template get<StartPosition>()[i];
+      g.positions()[i] = this->box_.wrap(g.mobility.motion.position(start, time));
+      g.template get<field::Velocity>()[i] = g.mobility.motion.velocity(start, time);
+    }
+  }
+  /// Square of the distance from where the particle was when the lists were built.
+  template <class G>
+  [[nodiscard]] double displacement(const G& g, std::size_t i) const {
+    return neighbours::minimum_image<Dim>(g.positions()[i] - g.at_list_build[i], this->box_).squaredNorm();
   }
 
   template <class G>
@@ -127,6 +142,11 @@ class Engine : public Forces<Dim, Integrator, Item...> {
         });
     });
     for (int k = 0; k < substeps_; ++k) {
+      for_each_group([&](auto& g) {
+        using G = std::remove_cvref_t<decltype(g)>;
+        if constexpr (particles::is_driven<typename G::Mobility> && LayoutOf<G>::has_bonds)
+          for_each_particle(g, [&](std::size_t i) { follow_motion(g, i, time - dt + (k + 1) * part); });
+      });
       for_each_fast([&](auto& g, std::size_t i) {
         g.template get<field::Velocity>()[i] += 0.5 * part * g.template get<FastAcceleration>()[i];
         g.positions()[i] += part * g.template get<field::Velocity>()[i];
@@ -139,7 +159,7 @@ class Engine : public Forces<Dim, Integrator, Item...> {
       using G = std::remove_cvref_t<decltype(g)>;
       if constexpr (LayoutOf<G>::has_substeps && LayoutOf<G>::has_pairs) {
         double farthest = 0.0;
-        for (std::size_t i = 0; i < g.size(); ++i) farthest = std::max(farthest, (g.positions()[i] - g.at_list_build[i]).squaredNorm());
+        for (std::size_t i = 0; i < g.size(); ++i) farthest = std::max(farthest, displacement(g, i));
         this->moved_[Base::template index_of<typename G::Tag>()] = std::sqrt(farthest);
       }
     });

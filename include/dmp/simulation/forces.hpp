@@ -21,11 +21,16 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
   /// checkpoint do the same arithmetic.
   void build_lists() {
     this->find_neighbours();
+    for_each_group([](auto& g) {
+      if constexpr (LayoutOf<decltype(g)>::has_records) g.records.resize(g.size() + g.ghost_count() + 1);
+    });
+    pack_all(0.0);
+    refresh_frozen();
+  }
+  /// Records of groups that do not evolve, which steps leave alone: for what the user has changed between runs.
+  void refresh_frozen() {
     for_each_group([&](auto& g) {
-      if constexpr (LayoutOf<decltype(g)>::has_records) {
-        g.records.resize(g.size() + g.ghost_count() + 1);
-        if constexpr (!evolves<decltype(g)>) pack(g, 0.0);
-      }
+      if constexpr (LayoutOf<decltype(g)>::has_records && !evolves<decltype(g)>) pack(g, 0.0);
     });
   }
 

@@ -61,6 +61,7 @@ template <class A, class B, class... Law>
 [[nodiscard]] auto interaction(const Law&... law) {
   static_assert(sizeof...(Law) > 0, "dmp: interaction<A, B>(...) needs at least one pair law");
   (check_parameters(law), ...);
+  (require_positive("interaction: cut-off of a law", sweep::as_pair_law(law).cutoff(), "m"), ...);
   return Interaction<A, B, decltype(sweep::as_pair_law(law))...>{{sweep::as_pair_law(law)...}};
 }
 

@@ -59,6 +59,37 @@ struct Actives<std::tuple<Item...>> {
 }  // namespace detail
 
 namespace detail {
+template <class Groups>
+inline constexpr bool all_different = true;
+template <class First, class... Rest>
+inline constexpr bool all_different<std::tuple<First, Rest...>> =
+    (!std::is_same_v<typename First::Tag, typename Rest::Tag> && ...) && all_different<std::tuple<Rest...>>;
+
+template <class Tag, class Groups>
+inline constexpr bool is_tag = false;
+template <class Tag, class... G>
+inline constexpr bool is_tag<Tag, std::tuple<G...>> = (std::is_same_v<Tag, typename G::Tag> || ...);
+template <class Groups, class Item>
+inline constexpr bool names_groups = true;
+template <class Groups, class A, class B, class... Law>
+inline constexpr bool names_groups<Groups, Interaction<A, B, Law...>> = is_tag<A, Groups>&& is_tag<B, Groups>;
+template <class Groups, class A, class B, class Law, bool S>
+inline constexpr bool names_groups<Groups, Bonds<A, B, Law, S>> = is_tag<A, Groups>&& is_tag<B, Groups>;
+template <class Groups, class... Tag, class... Law>
+inline constexpr bool names_groups<Groups, Material<std::tuple<Tag...>, Law...>> = (is_tag<Tag, Groups> && ...);
+template <class Groups, class... Tag, class... Law>
+inline constexpr bool names_groups<Groups, Forced<std::tuple<Tag...>, Law...>> = (is_tag<Tag, Groups> && ...);
+
+template <class X, class Y>
+inline constexpr bool same_pair = false;
+template <class A, class B, class... Law, class C, class D, class... Other>
+inline constexpr bool same_pair<Interaction<A, B, Law...>, Interaction<C, D, Other...>> = (std::is_same_v<A, C> && std::is_same_v<B, D>) ||
+                                                                                          (std::is_same_v<A, D> && std::is_same_v<B, C>);
+template <class... Item>
+inline constexpr bool declared_once = true;
+template <class First, class... Rest>
+inline constexpr bool declared_once<First, Rest...> = (!same_pair<First, Rest> && ...) && declared_once<Rest...>;
+
 template <int Dim, class Law>
 consteval bool law_fits() {
   if constexpr (requires { Law::dimension; }) return Law::dimension == Dim;
@@ -84,6 +115,10 @@ class Model {
  public:
   using Groups = typename detail::Groups<detail::filter<detail::IsGroup, Item...>, KeepsRates, Item...>::type;
   static constexpr bool has_pairs = (is_interaction<Item> || ...);
+  static_assert(detail::all_different<detail::filter<detail::IsGroup, Item...>>, "dmp: two groups of the scene have the same tag");
+  static_assert((detail::names_groups<detail::filter<detail::IsGroup, Item...>, Item> && ...),
+                "dmp: an item of the scene names a group that the scene does not hold");
+  static_assert(detail::declared_once<Item...>, "dmp: two interactions of the scene join the same two groups; name all their laws in one");
   static_assert((detail::fits_dimension<Dim, Item>() && ...), "dmp: a law of the scene is made for another dimension than the box");
 
   Model(const geometry::Box<Dim>& box, const Item&... item)
@@ -128,18 +163,19 @@ class Model {
     std::apply([&](const auto&... active) { (function(active), ...); }, items_);
   }
 
-  /// Row in the first group of a bond that is longer than 0.45 of a periodic box, and nearly took the shorter way round; -1 if there is
-  /// none.
+  /// The first bond that is longer than a bond may be in a periodic box; nullptr if there is none.
   template <class I>
-  [[nodiscard]] std::int64_t find_long_bond(const I& item) const {
+  [[nodiscard]] const neighbours::Bond* find_long_bond(const I& item) const {
     const auto& a = group<typename I::A>().positions();
     const auto& b = group<typename I::B>().positions();
     for (const auto& bond : item.bonds) {
       const Vector<Dim> apart = neighbours::minimum_image<Dim>(a[bond.i] - b[bond.j], box_);
       for (int d = 0; d < Dim; ++d)
-        if (const double period = periods_[static_cast<std::size_t>(d)]; period > 0.0 && std::fabs(apart[d]) > 0.45 * period) return bond.i;
+        if (const double period = periods_[static_cast<std::size_t>(d)];
+            period > 0.0 && std::fabs(apart[d]) > neighbours::longest_periodic_bond * period)
+          return &bond;
     }
-    return -1;
+    return nullptr;
   }
 
   [[nodiscard]] const geometry::Box<Dim>& box() const noexcept { return box_; }
@@ -271,8 +307,8 @@ class Model {
 
   template <class G>
   void settle(G& g) {  // positions into the box, particles into spatial order
+    for (auto& x : g.positions()) x = box_.wrap(x);
     if constexpr (G::Mobility::moves) {
-      for (auto& x : g.positions()) x = box_.wrap(x);
       if constexpr (LayoutOf<G>::has_pairs) {
         if (g.may_be_sorted && longest_cutoff_ > 0.0) {
           g.grid.build(g.positions(), 0.5 * (longest_cutoff_ + skin_));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <limits>
 #include <string>
@@ -66,7 +67,7 @@ class Scene {
   Scene& set_skin(double skin) {
     require_not_negative("scene: skin", skin, "m");
     engine_.set_skin(skin);
-    prepared_ = false;
+    if (prepared_) engine_.build_lists();
     return *this;
   }
   /// Calls observer(scene) at the start of the run and then every `interval` [s], at the step nearest to each multiple.
@@ -94,7 +95,7 @@ class Scene {
   }
 
   RunReport run(const RunOptions& options) {
-    require(options.until >= clock_.time && options.until < std::numeric_limits<double>::infinity(),
+    require(options.until >= clock_.time - 0.5 * clock_.time_step && options.until < std::numeric_limits<double>::infinity(),
             "scene: run until must be finite and not before the present time [s]", options.until);
     require_not_negative("scene: time_step", options.time_step, "s");
     require(options.safety > 0.0 && options.safety <= 1.0, "scene: safety must be > 0 and <= 1", options.safety);
@@ -110,8 +111,12 @@ class Scene {
       if (first_step > report.limit.stable_time_step)
         throw ParameterError("scene: time_step must be <= " + to_text(report.limit.stable_time_step) + " s, the bound of " +
                              report.limit.stability_bound_by + ", got " + to_text(first_step));
-      if (options.time_step > 0.0 || clock_.time_step == 0.0) choose_step(first_step);
+      const bool goes_on = options.time_step == 0.0 && clock_.automatic == 1 && clock_.time_step <= report.limit.stable_time_step;
+      if (!goes_on) choose_step(first_step);
+      clock_.automatic = options.time_step == 0.0 ? 1 : 0;
+      engine_.refresh_frozen();
       check();
+      take_snapshot();
       Progress bar(shows_progress_, clock_.time, options.until);
       observe();
       while (clock_.time < options.until - 0.5 * clock_.time_step) {
@@ -129,7 +134,11 @@ class Scene {
           engine_.build_lists();
         }
         engine_.finish_step(clock_.time_step, clock_.time);
-        if (clock_.step % options.check_every == 0) check();
+        if (clock_.step % options.check_every == 0) {
+          check();
+          take_snapshot();
+          if (options.time_step > 0.0) check_step(report.limit);
+        }
         observe();
         bar.show(clock_.time);
         ++report.steps;
@@ -140,8 +149,8 @@ class Scene {
                                  ? report.limit.bound_by
                                  : "given, " + to_text(std::round(100.0 * clock_.time_step / report.limit.stable_time_step)) +
                                        " % of the bound of " + report.limit.stability_bound_by;
-    } catch (const SimulationError&) {
-      rescue();
+    } catch (const SimulationError& error) {
+      rescue(error);
       throw;
     }
     std::size_t evolving = 0;
@@ -162,6 +171,7 @@ class Scene {
   /// Continues from a checkpoint of the same composition and the same particle numbers.
   void restart(const std::string& path) {
     clock_ = read_checkpoint(path, signature(), views());
+    for (auto& observer : observers_) observer.done = due(observer);
     engine_.build_lists();
     if constexpr (has_substeps)
       if (clock_.time_step > 0.0) engine_.set_substeps(substeps_for<Integrator>(engine_, clock_.time_step));
@@ -182,7 +192,7 @@ class Scene {
     if (prepared_) return;
     check_input();
     engine_.evaluate(clock_.time);
-    reject_overlaps();
+    if (clock_.step == 0) reject_overlaps();
     prepared_ = true;
   }
 
@@ -190,11 +200,15 @@ class Scene {
     clock_.choose(dt);
     if constexpr (has_substeps) engine_.set_substeps(substeps_for<Integrator>(engine_, dt));
   }
+  /// Multiples of the observer's interval that have passed.
+  [[nodiscard]] std::int64_t due(const Observer& observer) const {
+    return static_cast<std::int64_t>(std::floor((clock_.time + 0.5 * clock_.time_step) / observer.interval));
+  }
   void observe() {
     for (auto& observer : observers_) {
-      const auto due = static_cast<std::int64_t>(std::floor((clock_.time + 0.5 * clock_.time_step) / observer.interval));
-      if (due <= observer.done) continue;
-      observer.done = due;
+      const std::int64_t now = due(observer);
+      if (now <= observer.done) continue;
+      observer.done = now;
       observer.call(*this);
     }
   }
@@ -211,17 +225,18 @@ class Scene {
     });
   }
   template <class A, class B>
-  static void reject_overlap(const A& a, const B& b, const neighbours::PairList& pairs) {
+  void reject_overlap(const A& a, const B& b, const neighbours::PairList& pairs) const {
     const double least = 0.5 * std::min(a.spacing, b.spacing);
     if constexpr (A::Mobility::evolves)
       for (std::size_t range = 0; range < a.ranges.size(); ++range)
         for (std::size_t i = a.ranges.begin(range); i < a.ranges.end(range); ++i)
           for (const std::uint32_t j : pairs.of(range, i)) {
-            if (j >= b.size()) continue;
-            const double distance = (a.positions()[i] - b.positions()[j]).norm();
+            if (j >= b.size() + b.ghost_count()) continue;  // fills up the pack
+            const std::size_t row = j < b.size() ? j : b.ghosts.owner[j - b.size()];
+            const double distance = neighbours::minimum_image<Dim>(a.positions()[i] - b.positions()[row], engine_.box()).norm();
             if (distance < least)
               throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " +
-                                   b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
+                                   b.name + " " + std::to_string(b.id[row]) + " must be >= " + to_text(least) + " m apart, got " +
                                    to_text(distance));
           }
   }
@@ -252,12 +267,26 @@ class Scene {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>) {
         const auto& a = engine_.template group<typename I::A>();
-        const std::int64_t row = engine_.find_long_bond(active.item);
-        if (row >= 0)
-          throw SimulationError("a bond has become longer than 0.45 of the periodic box", {clock_.time, clock_.step, a.name, row, "", 0.0});
+        const auto& b = engine_.template group<typename I::B>();
+        if (const auto* const bond = engine_.find_long_bond(active.item))
+          throw SimulationError("a bond has become longer than 0.45 of the periodic box",
+                                {clock_.time, clock_.step, a.name, bond->i, "distance to " + b.name + " " + std::to_string(bond->j),
+                                 neighbours::minimum_image<Dim>(a.positions()[bond->i] - b.positions()[bond->j], engine_.box()).norm()});
       }
     });
+  }
+  /// The state is whole and right: the last good one.
+  void take_snapshot() {
     if (!rescue_path_.empty()) last_good_.take(views(), clock_);
+  }
+  /// A step that the user gave must stay within the bounds as they change.
+  void check_step(sweep::StepLimit& smallest) {
+    const auto limit = find_step_limit<Integrator>(engine_, has_substeps);
+    if (limit.stable_time_step < smallest.stable_time_step) smallest = limit;
+    if (clock_.time_step > limit.stable_time_step)
+      throw SimulationError(
+          "the given time step is longer than " + to_text(limit.stable_time_step) + " s, by now the bound of " + limit.stability_bound_by,
+          {clock_.time, clock_.step, "", -1, "", 0.0});
   }
   /// The same before anything is computed.
   void check_input() {
@@ -282,8 +311,13 @@ class Scene {
       }
     });
   }
-  void rescue() {
-    if (!last_good_.empty()) write_checkpoint(rescue_path_, signature(), views(), last_good_);
+  void rescue(const SimulationError& error) {
+    if (last_good_.empty()) return;
+    try {
+      write_checkpoint(rescue_path_, signature(), views(), last_good_);
+    } catch (const std::exception& second) {
+      throw SimulationError(std::string(error.what()) + "; and the last good state could not be written: " + second.what(), error.where);
+    }
   }
 
   Engine<Dim, Integrator, Item...> engine_;

@@ -20,6 +20,7 @@ struct Clock {
   double time_step = 0.0;       ///< [s] of the step under way, 0 before the first
   double base_time = 0.0;       ///< [s] when this time step was chosen: time = base_time + (step - base_step) time_step
   std::uint64_t base_step = 0;  ///< step at that time
+  std::uint64_t automatic = 0;  ///< 1 if this time step was chosen from the laws' bounds
 
   /// From here on steps of `dt` [s]. The same step again changes nothing, so that a run in two parts does the arithmetic of one.
   void choose(double dt) noexcept {
@@ -106,7 +107,7 @@ struct Snapshot {
 namespace detail {
 inline void write_clock(io::CheckpointWriter& writer, const Clock& clock) {
   const std::array<double, 3> times{clock.time, clock.time_step, clock.base_time};
-  const std::array<std::uint64_t, 2> steps{clock.step, clock.base_step};
+  const std::array<std::uint64_t, 3> steps{clock.step, clock.base_step, clock.automatic};
   writer.add("clock.times", std::span<const double>(times));
   writer.add("clock.steps", std::span<const std::uint64_t>(steps));
 }
@@ -154,7 +155,7 @@ inline void write_checkpoint(const std::string& path, const std::string& signatu
   const auto time = reader.template read<double>("clock.times");
   const auto step = reader.template read<std::uint64_t>("clock.steps");
   fits("clock.times", time.size(), 3);
-  fits("clock.steps", step.size(), 2);
+  fits("clock.steps", step.size(), 3);
   for (const auto& group : groups) {
     for (const auto& column : group.columns) {
       columns.push_back(reader.template read<double>(detail::section(group, column.name)));
@@ -168,7 +169,7 @@ inline void write_checkpoint(const std::string& path, const std::string& signatu
     for (const auto& column : groups[g].columns) std::copy(columns[next].begin(), columns[next].end(), column.values.begin()), ++next;
     std::copy(ids[g].begin(), ids[g].end(), groups[g].id.begin());
   }
-  return {time[0], step[0], time[1], time[2], step[1]};
+  return {time[0], step[0], time[1], time[2], step[1], step[2]};
 }
 
 }  // namespace dmp::simulation

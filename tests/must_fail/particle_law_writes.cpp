@@ -1,0 +1,11 @@
+// expect: dmp: not a material law: neither an EquationOfState, nor a viscosity(temperature), nor a ParticleLaw
+#include <dmp/sweep/particle_law.hpp>
+
+namespace {
+struct Paint {
+  using reads = dmp::Fields<dmp::field::Density>;
+  void apply(auto&) const {}
+};
+}  // namespace
+
+static_assert(dmp::sweep::explain_particle_law<Paint>());

@@ -1,0 +1,15 @@
+// expect: dmp: an item of the scene names a group that the scene does not hold
+#include <dmp/dmp.hpp>
+
+namespace {
+using namespace dmp;
+using namespace dmp::simulation;
+struct Water {};
+struct Oil {};
+[[maybe_unused]] const potential::LennardJones repulsion{.energy_scale = 1.0, .diameter = 1.0, .cutoff = 1.0};
+
+[[maybe_unused]] auto compose() {
+  const geometry::Points<2> points{.positions = {{0.0, 0.0}}};
+  return scene<integrator::ExtrapolatedVerlet>(geometry::Box<2>::unbounded(), group<Water>("water", particles::Mobile{}, points, 1.0), forced_by<Oil>(forcing::Constant<2>{.uniform_acceleration = {{{0.0, -9.81}}}}));
+}
+}  // namespace
