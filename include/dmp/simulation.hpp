@@ -9,6 +9,7 @@
 #include <dmp/simulation/limits.hpp>       // Bounds of the time step, from all laws of a scene.
 #include <dmp/simulation/model.hpp>        // Groups and items of a scene, and who is near whom.
 #include <dmp/simulation/output.hpp>       // VtkOutput: all groups for ParaView.
+#include <dmp/simulation/probe.hpp>        // A field at a point, from the particles around it.
 #include <dmp/simulation/progress.hpp>     // Bar with the time left.
 #include <dmp/simulation/scene.hpp>        // scene, run, observers, checkpoint and restart.
 #include <dmp/simulation/state.hpp>        // The state as plain numbers: checks, snapshots, checkpoints.

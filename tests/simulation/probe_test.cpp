@@ -1,0 +1,28 @@
+#include <doctest/doctest.h>
+
+#include "scenes.hpp"
+
+using namespace test;
+
+TEST_CASE("a probe reads a constant field exactly, also across a periodic face, and a smooth one to second order in the support") {
+  double before = 0.0;
+  for (const int columns : {24, 48}) {
+    auto scene = vortex({.columns = columns});
+    const kernel::WendlandC2<2> kernel{.support_radius = 2.6 / columns};
+    for (const Vector<2>& point : {Vector<2>(0.3, 0.6), Vector<2>(0.0, 0.0), Vector<2>(0.999, 0.5)})
+      CHECK(*probe<Water, field::Density>(scene, kernel, point) == doctest::Approx(1.0).epsilon(1e-14));
+    const Vector<2> point(0.21, 0.06);
+    constexpr double k = 2.0 * std::numbers::pi;
+    const double error = std::fabs((*probe<Water, field::Velocity>(scene, kernel, point))[0] - std::sin(k * point[0]) * std::cos(k * point[1]));
+    CHECK(error < 0.02);
+    if (before > 0.0) CHECK(error < before / 3.0);
+    before = error;
+  }
+}
+
+TEST_CASE("a probe with no particle in its support is dry") {
+  auto scene = vortex({});
+  scene.group<Water>().positions().assign(scene.group<Water>().size(), Vector<2>(0.1, 0.1));
+  CHECK_FALSE(probe<Water, field::Density>(scene, kernel::WendlandC2<2>{.support_radius = 0.1}, Vector<2>(0.6, 0.6)).has_value());
+  CHECK(probe<Water, field::Density>(scene, kernel::WendlandC2<2>{.support_radius = 0.1}, Vector<2>(0.12, 0.1)).has_value());
+}
