@@ -64,12 +64,12 @@ void bond_sweep_composed(benchmark::State& state) {
   for (auto _ : state) {
     for (std::size_t i = 0; i < l.positions.size(); ++i) {  // the record pass belongs to the sweep
       View<3, double, Record> record;
-      record.position = simulation::detail::components<3>(l.positions[i]);
+      record.position = to_components<3>(l.positions[i]);
       l.records.store(i, record);
     }
     for (std::size_t i = 0; i < l.positions.size(); ++i) {
       View<3, Lanes, Fields<field::Force>> sums;
-      sweep::detail::set_zero(sums);
+      sweep::set_zero(sums);
       sweep::sum_bonds<3, false>(l.records.spread<Lanes>(i), source, l.list.packs(i), l.list.rest_lengths(i), {}, sums, law);
       l.force[i] = {sum(sums.force[0]), sum(sums.force[1]), sum(sums.force[2])};
     }

@@ -79,17 +79,17 @@ void pair_sweep_composed(benchmark::State& state) {
   const Law law{.kernel = {.support_radius = support_radius}, .viscosity = {.alpha = alpha, .sound_speed = sound_speed}};
   const auto source = [&s](const std::uint32_t* index) __attribute__((always_inline)) {
     View<3, Lanes, unite<Record, Fields<field::Mass>>> view;
-    simulation::detail::copy_fields(Record{}, view, s.records.gather(index));
+    copy_fields(Record{}, view, s.records.gather(index));
     view.mass = mass;
     return view;
   };
   for (auto _ : state)
     for (std::size_t i = 0; i < s.positions.size(); ++i) {
       View<3, Lanes, unite<Record, Fields<field::Mass>>> self;
-      simulation::detail::copy_fields(Record{}, self, s.records.spread<Lanes>(i));
+      copy_fields(Record{}, self, s.records.spread<Lanes>(i));
       self.mass = mass;
       View<3, Lanes, Law::writes> sums;
-      sweep::detail::set_zero(sums);
+      sweep::set_zero(sums);
       sweep::sum_pairs<3>(self, source, s.pairs.of(0, i), sums, law);
       s.rates[i] = {sum(sums.acceleration[0]), sum(sums.acceleration[1]), sum(sums.acceleration[2]), sum(sums.density_rate)};
     }

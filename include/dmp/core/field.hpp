@@ -165,4 +165,14 @@ struct View;
 template <int Dim, class T, class... Field>
 struct View<Dim, T, Fields<Field...>> : Field::template Slot<Dim, T>... {};
 
+/// Copies the fields of `List` from one view to another; spreads them from a view of doubles to one of packs T.
+template <class... Field>
+void copy_fields(Fields<Field...>, auto& to, const auto& from) noexcept {
+  ((Field::of(to) = Field::of(from)), ...);
+}
+template <class T, class... Field>
+void spread_fields(Fields<Field...>, auto& to, const auto& from) noexcept {
+  ((Field::of(to) = T(Field::of(from))), ...);
+}
+
 }  // namespace dmp

@@ -40,9 +40,9 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
   [[nodiscard]] auto prepared(const G& g, std::size_t i, double dt) const noexcept {
     using C = LayoutOf<decltype(g)>;
     View<Dim, double, typename C::prepared> particle;
-    detail::spread_fields<double>(typename C::constants{}, particle, g.constants);
-    particle.position = detail::components<Dim>(g.positions()[i]);
-    particle.velocity = detail::components<Dim>(seen_velocity(g, i, dt));
+    spread_fields<double>(typename C::constants{}, particle, g.constants);
+    particle.position = to_components<Dim>(g.positions()[i]);
+    particle.velocity = to_components<Dim>(seen_velocity(g, i, dt));
     load_state(typename C::state{}, g, i, dt, particle);
     for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
@@ -102,14 +102,14 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
       for (std::size_t i = first; i < last; ++i) {
         const auto particle = prepared(g, i, dt);
         View<Dim, double, Record> record;
-        detail::copy_fields(Record{}, record, particle);
+        copy_fields(Record{}, record, particle);
         g.records.store(i, record);
       }
     });
     if constexpr (LayoutOf<G>::has_pairs)
       for (std::size_t k = 0; k < g.ghosts.size(); ++k) {
         auto record = g.records.load(g.ghosts.owner[k]);
-        record.position += detail::components<Dim>(g.ghosts.shift[k]);
+        record.position += to_components<Dim>(g.ghosts.shift[k]);
         g.records.store(g.size() + k, record);
       }
     auto far_away = g.records.load(0);
@@ -184,17 +184,17 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
       for_each_range(g.ranges, [&](std::size_t range, std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
           View<Dim, double, Sums> total;
-          sweep::detail::set_zero(total);
+          sweep::set_zero(total);
           if constexpr (C::has_records) {
             View<Dim, Lanes, Sums> sums;
-            sweep::detail::set_zero(sums);
+            sweep::set_zero(sums);
             sum_items<Fast>(g, range, i, sums);
-            sweep::detail::add_lanes(total, sums);
+            sweep::add_lanes(total, sums);
           }
           if constexpr (mobile<G>) {
             Vector<Dim> acceleration = Vector<Dim>::Zero();
-            if constexpr (contains<field::Acceleration, Sums>) acceleration += detail::vector<Dim>(total.acceleration);
-            if constexpr (contains<field::Force, Sums>) acceleration += detail::vector<Dim>(total.force) / g.mass;
+            if constexpr (contains<field::Acceleration, Sums>) acceleration += to_vector<Dim>(total.acceleration);
+            if constexpr (contains<field::Force, Sums>) acceleration += to_vector<Dim>(total.force) / g.mass;
             if constexpr (Fast) {
               g.template get<FastAcceleration>()[i] = acceleration;
             } else {
@@ -218,9 +218,9 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_forced<I>)
         if constexpr (I::template concerns<typename G::Tag>) {
-          const forcing::Subject<Dim> subject{detail::components<Dim>(g.positions()[i]), detail::components<Dim>(seen_velocity(g, i, dt)),
-                                              g.mass, time};
-          std::apply([&](const auto&... law) { ((result += detail::vector<Dim>(law.acceleration(subject))), ...); }, active.item.laws);
+          const forcing::Subject<Dim> subject{to_components<Dim>(g.positions()[i]), to_components<Dim>(seen_velocity(g, i, dt)), g.mass,
+                                              time};
+          std::apply([&](const auto&... law) { ((result += to_vector<Dim>(law.acceleration(subject))), ...); }, active.item.laws);
         }
     });
     return result;

@@ -18,30 +18,6 @@
 namespace dmp::simulation {
 
 namespace detail {
-/// Copies the fields of `List` from one view to another.
-template <class... Field>
-void copy_fields(Fields<Field...>, auto& to, const auto& from) noexcept {
-  ((Field::of(to) = Field::of(from)), ...);
-}
-template <class T, class... Field>
-void spread_fields(Fields<Field...>, auto& to, const auto& from) noexcept {
-  ((Field::of(to) = T(Field::of(from))), ...);
-}
-template <int Dim>
-[[nodiscard]] Components<Dim, double> components(const Vector<Dim>& v) noexcept {
-  Components<Dim, double> result;
-  for (int d = 0; d < Dim; ++d) result[d] = v[d];
-  return result;
-}
-template <int Dim>
-[[nodiscard]] Vector<Dim> vector(const Components<Dim, double>& c) noexcept {
-  Vector<Dim> result;
-  for (int d = 0; d < Dim; ++d) result[d] = c[d];
-  return result;
-}
-}  // namespace detail
-
-namespace detail {
 /// What a group needs to be found by pair laws; nothing where there are none.
 template <int Dim, bool HasPairs>
 struct Neighbourhood {};
@@ -118,16 +94,16 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
   template <class T>
   [[nodiscard, gnu::always_inline]] auto spread(std::size_t index) const noexcept {
     View<Dim, T, typename Layout::seen> view;
-    detail::copy_fields(typename Layout::record{}, view, records.template spread<T>(index));
-    detail::spread_fields<T>(typename Layout::constants{}, view, constants);
+    copy_fields(typename Layout::record{}, view, records.template spread<T>(index));
+    spread_fields<T>(typename Layout::constants{}, view, constants);
     return view;
   }
   /// Views of the records index[0 .. width - 1], with the constants of the group.
   [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
     using Lanes = Pack<double, Records::width>;
     View<Dim, Lanes, typename Layout::seen> view;
-    detail::copy_fields(typename Layout::record{}, view, records.gather(index));
-    detail::spread_fields<Lanes>(typename Layout::constants{}, view, constants);
+    copy_fields(typename Layout::record{}, view, records.gather(index));
+    spread_fields<Lanes>(typename Layout::constants{}, view, constants);
     return view;
   }
 

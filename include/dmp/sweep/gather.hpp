@@ -14,7 +14,7 @@ namespace dmp::sweep {
 /// The pack of numbers that sweeps work with.
 using Lanes = Pack<double, native_width<double>>;
 
-namespace detail {
+/// Sums before and after a sweep: all zero, and the lanes of a pack added up.
 template <int Dim, class T, class... Field>
 [[gnu::always_inline]] inline void set_zero(View<Dim, T, Fields<Field...>>& view) noexcept {
   [[maybe_unused]] const auto one = [](auto& member) {
@@ -35,8 +35,6 @@ template <int Dim, class... Field>
   };
   (one(Field::of(to), Field::of(from)), ...);
 }
-}  // namespace detail
-
 /// Geometry of a pair from the views of its particles. Velocities enter only if a law asks for them.
 template <bool Velocity, int Dim, class I, class J>
 [[nodiscard, gnu::always_inline]] inline auto pair_of(const I& i, const J& j) noexcept {
