@@ -1,6 +1,8 @@
 #pragma once
 // Groups and their storage.
-#include <dmp/particles/columns.hpp>   // Structure of arrays: one column per field.
-#include <dmp/particles/mobility.hpp>  // Mobile, Stationary, Frozen, Driven.
-#include <dmp/particles/records.hpp>   // What laws read of a particle, packed for vector loads.
-#include <dmp/particles/view.hpp>      // Groups and columns without their types, for output and checks.
+#include <dmp/particles/columns.hpp>    // Structure of arrays: one column per field.
+#include <dmp/particles/mobility.hpp>   // Mobile, Stationary, Frozen, Driven.
+#include <dmp/particles/precision.hpp>  // Double or single precision of pair laws.
+#include <dmp/particles/records.hpp>    // What laws read of a particle, packed for vector loads.
+#include <dmp/particles/sums.hpp>       // What pairs and bonds add to partners.
+#include <dmp/particles/view.hpp>       // Groups and columns without their types, for output and checks.

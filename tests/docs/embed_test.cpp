@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 #include <doctest/doctest.h>
+#include <dmp/core/threads.hpp>
 #include <dmp/eos/tait.hpp>
 #include <dmp/geometry/box.hpp>
 #include <dmp/kernel/wendland_c2.hpp>
 #include <dmp/neighbours.hpp>
+#include <dmp/particles/precision.hpp>
 #include <dmp/particles/records.hpp>
 #include <dmp/potential/lennard_jones.hpp>
 #include <dmp/sph/weakly_compressible.hpp>
@@ -110,7 +112,8 @@ using Sums = dmp::View<3, double, dmp::Fields<dmp::field::Acceleration, dmp::fie
 /// What particle j does to the acceleration and the density rate of particle i.
 void add_pair(const Particle& i, const Particle& j, double support_radius, Sums& sums) {
   const dmp::sph::WeaklyCompressible<dmp::kernel::WendlandC2<3>, dmp::viscosity::Morris<>> flow{.kernel = {.support_radius = support_radius}};
-  flow.add(dmp::sweep::pair_of<flow.uses_velocity, 3>(i, j), i, j, sums);
+  const dmp::precision::Double::Frame<3> metres;  // what positions are in
+  flow.add(dmp::sweep::pair_of<flow.uses_velocity, 3>(metres, i, j), i, j, sums);
 }
 // end
 
@@ -118,31 +121,33 @@ void add_pair(const Particle& i, const Particle& j, double support_radius, Sums&
 /// Forces [N] of a pair potential between all points, in vector registers.
 std::vector<std::array<double, 3>> forces(const std::vector<dmp::Vector<3>>& positions, const dmp::potential::LennardJones& potential) {
   using dmp::sweep::Lanes;  // as many doubles as a vector register holds
+  using Force = dmp::Fields<dmp::field::Force>;
   const auto law = dmp::sweep::as_pair_law(potential);
   const auto count = static_cast<std::uint32_t>(positions.size());
 
-  // Lists: the rows of the neighbours, filled up to whole registers with row `count`.
+  // Lists: the rows of the neighbours, filled up to whole registers with rows beyond those of the points.
+  const dmp::Blocks blocks(count);  // of rows, shared among the threads
+  const auto rows = static_cast<std::uint32_t>(blocks.far_row(blocks.size()));
   dmp::neighbours::CellGrid<3> grid;
   grid.build(positions, law.cutoff());
-  const dmp::Ranges threads(positions.size());
   dmp::neighbours::PairList pairs;
-  pairs.build<3>(threads, positions, grid, law.cutoff(), {.same_group = true, .owned = count, .owner = {}}, {}, Lanes::width);
+  pairs.build<3>(blocks, positions, grid, law.cutoff(), 0.0,
+                 {.same_group = true, .owned = count, .first_ghost = rows, .owner = {}, .once = false}, {}, Lanes::width);
 
-  // Records: what the law reads, side by side; row `count` lies far away.
+  // Records: what the law reads, side by side. The rows beyond lie far away.
   dmp::particles::Records<3, dmp::Fields<dmp::field::Position>> records;
-  records.resize(count + 1);
-  for (std::uint32_t i = 0; i <= count; ++i) {
+  records.resize(rows);
+  for (std::uint32_t i = 0; i < rows; ++i) {
     dmp::View<3, double, dmp::Fields<dmp::field::Position>> record;
     for (int d = 0; d < 3; ++d) record.position[d] = i < count ? positions[i][d] : 1e30;
     records.store(i, record);
   }
 
   std::vector<std::array<double, 3>> result(count);
-  dmp::for_each_range(threads, [&](std::size_t range, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      dmp::View<3, Lanes, dmp::Fields<dmp::field::Force>> sums{};
-      const auto source = [&records](const std::uint32_t* rows) { return records.gather(rows); };
-      dmp::sweep::sum_pairs<3>(records.spread<Lanes>(i), source, pairs.of(range, i), sums, law);
+  dmp::for_each_block(blocks, [&](std::size_t, std::size_t block) {
+    for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
+      dmp::View<3, Lanes, Force> sums{};
+      dmp::sweep::sum_pairs<3>(records.spread<Lanes>(i), records.reader(), pairs.of(block, i), sums, law);
       for (int d = 0; d < 3; ++d) result[i][static_cast<std::size_t>(d)] = sum(sums.force[d]);
     }
   });
@@ -209,18 +214,21 @@ TEST_CASE("one pair of one's own: momentum is kept, approaching particles gain d
   CHECK(on_i.density_rate > 0.0);
 }
 
-TEST_CASE("the vector sweep over one's own points agrees with all pairs one by one") {
-  const auto positions = points(8);
+TEST_CASE("the vector sweep over one's own points agrees with all pairs one by one, also when they fill several blocks") {
   const dmp::potential::LennardJones potential{.energy_scale = 1.0, .diameter = 0.9, .cutoff = 2.5};
-  const auto result = forces(positions, potential);
-  double error = 0.0, largest = 0.0;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    dmp::Vector<3> force = dmp::Vector<3>::Zero();
-    for (std::size_t j = 0; j < positions.size(); ++j)
-      if (i != j) force += potential.force_factor((positions[i] - positions[j]).squaredNorm()) * (positions[i] - positions[j]);
-    for (int d = 0; d < 3; ++d) error = std::max(error, std::fabs(force[d] - result[i][static_cast<std::size_t>(d)]));
-    largest = std::max(largest, force.norm());
+  for (const int edge : {8, 21}) {
+    const auto positions = points(edge);
+    const auto result = forces(positions, potential);
+    double error = 0.0, largest = 0.0;
+    for (std::size_t i = 0; i < positions.size(); i += edge == 8 ? 1 : 37) {
+      dmp::Vector<3> force = dmp::Vector<3>::Zero();
+      for (std::size_t j = 0; j < positions.size(); ++j)
+        if (i != j) force += potential.force_factor((positions[i] - positions[j]).squaredNorm()) * (positions[i] - positions[j]);
+      for (int d = 0; d < 3; ++d) error = std::max(error, std::fabs(force[d] - result[i][static_cast<std::size_t>(d)]));
+      largest = std::max(largest, force.norm());
+    }
+    CHECK(dmp::Blocks(positions.size()).size() == (edge == 8 ? 1 : 2));
+    CHECK(largest > 1.0);
+    CHECK(error < 1e-12 * largest);
   }
-  CHECK(largest > 1.0);
-  CHECK(error < 1e-12 * largest);
 }

@@ -3,6 +3,7 @@
 #include <limits>
 #include "neighbours/oracle.hpp"
 #include <doctest/doctest.h>
+#include <dmp/core/threads.hpp>
 #include <dmp/neighbours/bond_list.hpp>
 
 using dmp::Vector;
@@ -27,11 +28,22 @@ std::string complaint(std::vector<Bond> bonds, const Box<2>& box = open) {
   return {};
 }
 
-std::vector<std::pair<std::uint32_t, double>> bonds_of(const BondList& list, std::size_t i) {
-  std::vector<std::pair<std::uint32_t, double>> result;
-  for (std::size_t k = 0; k < list.partners(i).size(); ++k) result.emplace_back(list.partners(i)[k], list.rest_lengths(i)[k]);
+using Ends = std::vector<std::pair<std::uint32_t, double>>;
+
+/// Partners and rest lengths that are listed at particle i, without what fills the packs.
+Ends bonds_of(const BondList& list, std::size_t i) {
+  Ends result;
+  const auto entries = list.of(i);
+  for (std::size_t k = 0; k < entries.size; ++k)
+    if (entries.rest_length[k] >= 0.0) result.emplace_back(entries.partner[k], entries.rest_length[k]);
   std::sort(result.begin(), result.end());
   return result;
+}
+
+dmp::Blocks blocks_of(const std::vector<std::size_t>& bounds) {
+  dmp::Blocks blocks;
+  blocks.set_bounds(bounds);
+  return blocks;
 }
 
 }  // namespace
@@ -108,53 +120,169 @@ TEST_CASE("bonds between two groups: rows 1 and 1 are two particles, and (0, 1) 
                        "bonds of net and anchors: the same two particles must not be bonded twice, got bond (0, 1)", dmp::ParameterError);
 }
 
-TEST_CASE("each particle knows its bonds: every bond stands once at each end that moves") {
+TEST_CASE("a bond within a block is listed once, at the particle further up, one between two blocks at both ends") {
   const std::vector<Bond> bonds{{0, 1, 0.1}, {3, 1, 0.2}, {1, 2, 0.3}};
-  using Expected = std::vector<std::pair<std::uint32_t, double>>;
-  BondList both, first, second;
-  both.build(5, bonds, true, false, 4);
-  CHECK(bonds_of(both, 0) == Expected{{1, 0.1}});
-  CHECK(bonds_of(both, 1) == Expected{{0, 0.1}, {2, 0.3}, {3, 0.2}});
-  CHECK(bonds_of(both, 2) == Expected{{1, 0.3}});
-  CHECK(bonds_of(both, 3) == Expected{{1, 0.2}});
-  CHECK(bonds_of(both, 4).empty());
-  first.build(4, bonds, false, false, 4);  // of two groups: the ends i ...
-  CHECK(bonds_of(first, 0) == Expected{{1, 0.1}});
-  CHECK(bonds_of(first, 1) == Expected{{2, 0.3}});
-  CHECK(bonds_of(first, 2).empty());
-  CHECK(bonds_of(first, 3) == Expected{{1, 0.2}});
-  second.build(3, bonds, false, true, 4);  // ... and the ends j
-  CHECK(bonds_of(second, 0).empty());
-  CHECK(bonds_of(second, 1) == Expected{{0, 0.1}, {3, 0.2}});
-  CHECK(bonds_of(second, 2) == Expected{{1, 0.3}});
+  BondList list;
+  list.build(blocks_of({0, 5}), bonds, true, false, 4);
+  CHECK(bonds_of(list, 0) == Ends{{1, 0.1}});
+  CHECK(bonds_of(list, 1) == Ends{{2, 0.3}, {3, 0.2}});
+  for (const std::size_t i : {2u, 3u, 4u}) CHECK(bonds_of(list, i).empty());
+  list.build(blocks_of({0, 2, 5}), bonds, true, false, 4);
+  CHECK(bonds_of(list, 0) == Ends{{1, 0.1}});
+  CHECK(bonds_of(list, 1) == Ends{{2, 0.3}, {3, 0.2}});
+  CHECK(bonds_of(list, 2) == Ends{{1, 0.3}});
+  CHECK(bonds_of(list, 3) == Ends{{1, 0.2}});
+  CHECK(bonds_of(list, 4).empty());
+}
+
+TEST_CASE("a bond of two groups is listed once in the list of either, at the end that lies there, whatever the blocks") {
+  const std::vector<Bond> bonds{{0, 1, 0.1}, {3, 1, 0.2}, {1, 2, 0.3}};
+  for (const std::size_t middle : {1u, 2u}) {
+    BondList first, second;
+    first.build(blocks_of({0, middle, 4}), bonds, false, false, 4);  // the ends i ...
+    CHECK(bonds_of(first, 0) == Ends{{1, 0.1}});
+    CHECK(bonds_of(first, 1) == Ends{{2, 0.3}});
+    CHECK(bonds_of(first, 2).empty());
+    CHECK(bonds_of(first, 3) == Ends{{1, 0.2}});
+    second.build(blocks_of({0, middle, 3}), bonds, false, true, 4);  // ... and the ends j
+    CHECK(bonds_of(second, 0).empty());
+    CHECK(bonds_of(second, 1) == Ends{{0, 0.1}, {3, 0.2}});
+    CHECK(bonds_of(second, 2) == Ends{{1, 0.3}});
+  }
+}
+
+TEST_CASE("a net at random: with its reactions every bond acts once on either end; what is in vain goes to rows of the block that nobody reads") {
+  constexpr std::uint32_t beads = 50;
+  test::Random random(1);
+  std::vector<std::vector<double>> between(beads, std::vector<double>(beads, 0.0));
+  std::vector<Bond> bonds;
+  for (int n = 0; n < 150; ++n) {
+    const auto i = static_cast<std::uint32_t>(beads * random()), j = static_cast<std::uint32_t>(beads * random());
+    if (i == j || between[i][j] > 0.0) continue;
+    between[i][j] = between[j][i] = random() + 0.1;
+    bonds.push_back({i, j, between[i][j]});
+  }
+  for (const std::vector<std::size_t>& bounds : {std::vector<std::size_t>{0, 50}, {0, 1, 2, 25, 50}, {0, 13, 49, 50}})
+    for (const std::size_t pack : {1u, 2u, 4u, 8u}) {
+      CAPTURE(pack);
+      const auto blocks = blocks_of(bounds);
+      BondList list;
+      list.build(blocks, bonds, true, false, pack);
+      std::vector<std::vector<double>> acting(beads, std::vector<double>(beads, 0.0));
+      double entries = 0.0;
+      std::size_t astray = 0;
+      for (std::size_t block = 0; block < blocks.size(); ++block) {
+        entries += list.entries(blocks, block);
+        for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
+          const auto of = list.of(i);
+          entries -= static_cast<double>(of.size);
+          for (std::size_t k = 0; k < of.size; ++k) {
+            if (of.rest_length[k] >= 0.0) acting[i][of.partner[k]] += of.rest_length[k];
+            if (of.reaction[k] < beads) {
+              acting.at(of.reaction[k])[i] += of.rest_length[k];
+              astray += of.reaction[k] != of.partner[k] || of.reaction[k] <= i || of.reaction[k] >= blocks.end(block);
+            } else {
+              astray += of.reaction[k] < blocks.far_row(block) || of.reaction[k] >= blocks.far_row(block + 1);
+            }
+          }
+        }
+      }
+      CHECK(acting == between);
+      CHECK(astray == 0);
+      CHECK(entries == 0.0);
+    }
+}
+
+TEST_CASE("the weights of the bonds of a particle add up wherever they are listed; without any they are as many as the bonds") {
+  std::vector<Bond> bonds{{0, 1, 0.1}, {3, 1, 0.2}, {1, 2, 0.3}};
+  using Sums = std::vector<double>;
+  const auto sums = [&bonds](std::size_t count, bool same_group, bool own_is_j, const std::vector<std::size_t>& bounds) {
+    BondList list;
+    list.build(blocks_of(bounds), bonds, same_group, own_is_j, 4);
+    Sums result;
+    for (std::size_t i = 0; i < count; ++i) result.push_back(list.sum_of_weights(i));
+    return result;
+  };
+  for (const std::size_t middle : {1u, 2u}) {
+    CHECK(sums(4, true, false, {0, middle, 4}) == Sums{1, 3, 1, 1});
+    CHECK(sums(4, false, false, {0, middle, 4}) == Sums{1, 1, 0, 1});
+    CHECK(sums(3, false, true, {0, middle, 3}) == Sums{0, 2, 1});
+  }
+  bonds[0].weight = 0.5;
+  bonds[2].weight = 0.25;
+  for (const std::size_t middle : {1u, 2u}) {
+    CHECK(sums(4, true, false, {0, middle, 4}) == Sums{0.5, 1.75, 0.25, 1});
+    CHECK(sums(4, false, false, {0, middle, 4}) == Sums{0.5, 0.25, 0, 1});
+    CHECK(sums(3, false, true, {0, middle, 3}) == Sums{0, 1.5, 0.25});
+  }
+}
+
+TEST_CASE("every bond brings its weight, at whatever end it is listed; where all are one, one pack is read again and again") {
+  std::vector<Bond> bonds{{0, 1, 0.1, 0.5}, {3, 1, 0.2}, {1, 2, 0.3, 0.25}};
+  for (const bool weighted : {true, false})
+    for (const std::size_t middle : {1u, 2u, 3u}) {
+      if (!weighted)
+        for (Bond& bond : bonds) bond.weight = 1.0;
+      BondList list;
+      list.build(blocks_of({0, middle, 4}), bonds, true, false, 4);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto of = list.of(i);
+        for (std::size_t k = 0; k < of.size; ++k)
+          for (const Bond& bond : bonds)
+            if (bond.rest_length == of.rest_length[k]) CHECK(of.weight[weighted ? k : k % 4] == bond.weight);
+        CHECK(of.weight_step == (weighted ? 1 : 0));
+      }
+    }
 }
 
 TEST_CASE("the bonds of a particle fill whole packs, with entries that say they are none and can be loaded like the others") {
   std::vector<Bond> star;
   for (std::uint32_t j = 1; j <= 9; ++j) star.push_back({0, j, 0.1 * j});
-  for (const std::size_t pack : {1u, 2u, 4u, 8u})
-    for (std::size_t bonds = 0; bonds <= star.size(); ++bonds) {
-      CAPTURE(pack);
-      CAPTURE(bonds);
-      BondList list;
-      list.build(10, std::span(star).first(bonds), true, false, pack);
-      CHECK(list.packs(0).size() == (bonds + pack - 1) / pack * pack);
-      CHECK(list.partners(0).size() == bonds);
-      for (std::size_t k = 0; k < list.packs(0).size(); ++k) {
-        CHECK((list.rest_lengths(0)[k] >= 0.0) == (k < bonds));
-        CHECK(list.packs(0)[k] < 10);
+  for (const bool same_group : {true, false})
+    for (const std::size_t pack : {1u, 2u, 4u, 8u})
+      for (std::size_t bonds = 0; bonds <= star.size(); ++bonds) {
+        CAPTURE(same_group);
+        CAPTURE(pack);
+        CAPTURE(bonds);
+        BondList list;
+        list.build(dmp::Blocks(same_group ? 10 : 1), std::span(star).first(bonds), same_group, false, pack);
+        const auto of = list.of(0);
+        CHECK(of.size == (bonds + pack - 1) / pack * pack);
+        CHECK(bonds_of(list, 0).size() == bonds);
+        for (std::size_t k = 0; k < of.size; ++k) {
+          CHECK((of.rest_length[k] >= 0.0) == (k < bonds));
+          CHECK(of.partner[k] == (k < bonds ? k + 1 : same_group ? 0 : bonds));  // what fills: itself, or once more the last partner
+        }
       }
-    }
+}
+
+TEST_CASE("bonds through periodic faces are told from those inside, at each particle that lists one") {
+  const test::Cloud<1> beads{Vector<1>(0.05), Vector<1>(0.3), Vector<1>(0.6), Vector<1>(0.95)};
+  const Box<1> box{.lower = {0.0}, .upper = {1.0}, .periodic = {true}};
+  BondList list;
+  list.build(blocks_of({0, 1, 4}), std::vector<Bond>{{0, 1, 0.2}, {1, 2, 0.2}, {2, 3, 0.2}, {3, 0, 0.2}}, true, false, 4);
+  list.mark_crossing<1>(beads, beads, box);
+  CHECK(list.crosses(0));
+  CHECK_FALSE(list.crosses(1));
+  CHECK_FALSE(list.crosses(2));
+  CHECK(list.crosses(3));
+  list.mark_crossing<1>(beads, beads, {.lower = {0.0}, .upper = {1.0}});
+  for (std::size_t i = 0; i < 4; ++i) CHECK_FALSE(list.crosses(i));
 }
 
 TEST_CASE("no bonds: empty lists") {
   BondList list;
   CHECK(list.empty());
-  list.build(3, {}, true, false, 4);
-  CHECK(list.empty());
-  for (std::size_t i = 0; i < 3; ++i) CHECK(list.partners(i).empty());
-  list.build(0, {}, true, false, 4);
-  CHECK(list.empty());
+  for (const std::size_t particles : {3u, 0u}) {
+    const dmp::Blocks blocks(particles);
+    list.build(blocks, {}, true, false, 4);
+    CHECK(list.empty());
+    CHECK(list.entries(blocks, 0) == 0.0);
+    for (std::size_t i = 0; i < particles; ++i) {
+      CHECK(list.of(i).size == 0);
+      CHECK(list.sum_of_weights(i) == 0.0);
+    }
+  }
   std::vector<Bond> none;
   complete_bonds<2>(none, corners, corners, true, periodic, "net");
   CHECK(none.empty());

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 #include <vector>
-#include <dmp/core/threads.hpp>
+#include "support/threads.hpp"
 #include <dmp/core/vector.hpp>
 #include <dmp/geometry/box.hpp>
 
@@ -107,17 +107,5 @@ template <int Dim>
   std::sort(near.begin(), near.end());
   return near;
 }
-
-/// Uses `count` threads as long as it lives.
-class Threads {
- public:
-  explicit Threads(int count) : before_(dmp::available_threads()) { dmp::use_threads(count); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-  ~Threads() { dmp::use_threads(before_); }
-
- private:
-  int before_;
-};
 
 }  // namespace test

@@ -4,7 +4,7 @@
 #include <string>
 #include "neighbours/oracle.hpp"
 #include <doctest/doctest.h>
-#include <dmp/core/pack.hpp>
+#include <dmp/core/threads.hpp>
 #include <dmp/neighbours/ghosts.hpp>
 #include <dmp/neighbours/pair_list.hpp>
 
@@ -23,52 +23,91 @@ template <int Dim>
 struct Search {
   test::Cloud<Dim> of, sources;
   dmp::geometry::Box<Dim> box;
-  double radius;
+  double cutoff;
   bool same_group;
-  dmp::Ranges ranges{};
+  double skin = 0.0;
+  bool once = true;
+  std::vector<std::size_t> bounds{};  // of blocks; none: two blocks of which the second is larger
+  dmp::Blocks blocks{};
   Ghosts<Dim> ghosts{};
   PairList list{};
+  double margin = 0.0;  // of the grid: those who are this little too far may be listed, or not
 
   void run(const Exclusions& excluded = {}) {
-    ghosts.build(sources, box, radius);
+    ghosts.build(sources, box, reach());
     auto all = sources;
     for (std::size_t k = 0; k < ghosts.size(); ++k) all.push_back(sources[ghosts.owner[k]] + ghosts.shift[k]);
     CellGrid<Dim> grid;
-    grid.build(all, 0.5 * radius);
-    ranges = dmp::Ranges(of.size(), 1);
-    list.template build<Dim>(ranges, of, grid, radius, {same_group, owned(), ghosts.owner}, excluded, pack);
+    grid.build(all, 0.5 * reach());
+    const std::vector<std::size_t> one{0, of.size()}, two{0, of.size() / 3, of.size()};
+    blocks.set_bounds(!bounds.empty() ? bounds : of.size() > 3 ? two : one);
+    margin = grid.margin() + 1e-6 * reach();
+    list.template build<Dim>(blocks, of, grid, cutoff, skin, {same_group, owned(), first_ghost(), ghosts.owner, once}, excluded, pack);
   }
+  [[nodiscard]] double reach() const { return cutoff + skin; }
   [[nodiscard]] std::uint32_t owned() const { return static_cast<std::uint32_t>(sources.size()); }
-  [[nodiscard]] std::uint32_t filler() const { return static_cast<std::uint32_t>(sources.size() + ghosts.size()); }
+  /// Of a group of its own, the sources have as many blocks as they like: here one.
+  [[nodiscard]] std::uint32_t first_ghost() const {
+    return owned() + static_cast<std::uint32_t>(dmp::Blocks::far_rows * (same_group ? blocks.size() : 1));
+  }
+  /// What fills the packs of a block: rows that lie far away, and apart from those of the other blocks.
+  [[nodiscard]] std::uint32_t filler(std::size_t block) const {
+    return same_group ? static_cast<std::uint32_t>(blocks.far_row(block)) : owned();
+  }
 
+  /// f(block, i, whole list)
   template <class Function>
   void for_each_particle(const Function& f) const {
-    for (std::size_t range = 0; range < ranges.size(); ++range)
-      for (std::size_t i = ranges.begin(range); i < ranges.end(range); ++i) f(i, list.of(range, i));
+    for (std::size_t block = 0; block < blocks.size(); ++block)
+      for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) f(block, i, list.of(block, i));
   }
   /// What a list says, without the filler, as images in order.
   [[nodiscard]] std::vector<test::Image<Dim>> images(std::span<const std::uint32_t> rows) const {
     std::vector<test::Image<Dim>> result;
     for (const std::uint32_t row : rows) {
-      if (row >= filler()) continue;
+      if (row >= owned() && row < first_ghost()) continue;
       std::array<int, Dim> boxes{};
       if (row >= owned())
         for (int d = 0; d < Dim; ++d)
-          boxes[static_cast<std::size_t>(d)] = static_cast<int>(std::lround(ghosts.shift[row - owned()][d] / (box.upper[d] - box.lower[d])));
-      result.push_back({row < owned() ? row : ghosts.owner[row - owned()], boxes});
+          boxes[static_cast<std::size_t>(d)] = static_cast<int>(std::lround(ghosts.shift.at(row - first_ghost())[d] / (box.upper[d] - box.lower[d])));
+      result.push_back({row < owned() ? row : ghosts.owner.at(row - first_ghost()), boxes});
     }
     std::sort(result.begin(), result.end());
     return result;
   }
+  /// Whom particle i of `block` must list: all within `radius`, but of its own block only those further down if pairs are listed once.
+  [[nodiscard]] std::vector<test::Image<Dim>> expected(std::size_t block, std::size_t i, double radius) const {
+    auto near = test::all_near<Dim>(of[i], radius, same_group ? static_cast<std::int64_t>(i) : -1, sources, box);
+    if (same_group && once)
+      std::erase_if(near, [&](const test::Image<Dim>& image) {
+        return image.second == std::array<int, Dim>{} && image.first >= blocks.begin(block) && image.first < i;
+      });
+    return near;
+  }
   /// Particles whose list is not what looking at every pair gives, or not filled as it should be.
   [[nodiscard]] int wrong_lists() const {
     int wrong = 0;
-    for_each_particle([&](std::size_t i, std::span<const std::uint32_t> rows) {
-      const auto near = test::all_near<Dim>(of[i], radius, same_group ? static_cast<std::int64_t>(i) : -1, sources, box);
-      const bool whole_packs = rows.size() == (near.size() + pack - 1) / pack * pack;
-      const auto first_filler = std::find(rows.begin(), rows.end(), filler());
-      const bool fillers_last = std::all_of(first_filler, rows.end(), [this](std::uint32_t row) { return row == filler(); });
-      wrong += !(images(rows) == near && whole_packs && fillers_last);
+    for_each_particle([&](std::size_t block, std::size_t i, std::span<const std::uint32_t> rows) {
+      const auto listed = images(rows), near = expected(block, i, reach()), around = expected(block, i, reach() + margin);
+      const bool right = std::adjacent_find(listed.begin(), listed.end()) == listed.end() && std::includes(listed.begin(), listed.end(), near.begin(), near.end()) &&
+                         std::includes(around.begin(), around.end(), listed.begin(), listed.end());
+      const bool whole_packs = rows.size() == (listed.size() + pack - 1) / pack * pack;
+      const auto first_filler = rows.begin() + static_cast<std::ptrdiff_t>(std::min(listed.size(), rows.size()));
+      const bool fillers_last = std::all_of(first_filler, rows.end(), [&](std::uint32_t row) { return row == filler(block); });
+      wrong += !(right && whole_packs && fillers_last);
+    });
+    return wrong;
+  }
+  /// Particles and levels at which somebody is missing who can act, or the list is not the beginning of the whole one.
+  [[nodiscard]] int wrong_levels() const {
+    int wrong = 0;
+    for_each_particle([&](std::size_t block, std::size_t i, std::span<const std::uint32_t> rows) {
+      for (std::size_t level = 0; level < PairList::levels; ++level) {
+        const auto read = list.of(block, i, level);
+        const auto seen = images(read), near = expected(block, i, cutoff + skin * static_cast<double>(level + 1) / PairList::levels);
+        wrong += !(read.data() == rows.data() && read.size() <= rows.size() && read.size() % pack == 0 &&
+                   std::includes(seen.begin(), seen.end(), near.begin(), near.end()));
+      }
     });
     return wrong;
   }
@@ -76,18 +115,20 @@ struct Search {
 
 template <int Dim>
 void check_against_every_pair(const std::array<bool, Dim>& periodic) {
-  const test::Threads threads(4);
   const auto box = test::cube<Dim>(1.0, periodic);
   for (const double radius : {0.08, 0.25, 0.7}) {  // 0.7: longer than half the box, so a neighbour may be near twice
     CAPTURE(radius);
-    const test::Cloud<Dim> clouds[] = {test::scattered<Dim>(150, 1.0, 1), test::clustered<Dim>(150, 1.0, 2), test::lattice<Dim>(Dim == 1 ? 16 : 4, 1.0),
+    const test::Cloud<Dim> clouds[] = {test::scattered<Dim>(100, 1.0, 1), test::clustered<Dim>(100, 1.0, 2), test::lattice<Dim>(Dim == 1 ? 16 : 4, 1.0),
                                        test::scattered<Dim>(1, 1.0, 3)};
     for (std::size_t cloud = 0; cloud < std::size(clouds); ++cloud) {
       CAPTURE(cloud);
-      Search<Dim> among_themselves{.of = clouds[cloud], .sources = clouds[cloud], .box = box, .radius = radius, .same_group = true};
+      Search<Dim> among_themselves{.of = clouds[cloud], .sources = clouds[cloud], .box = box, .cutoff = radius, .same_group = true};
       among_themselves.run();
       CHECK(among_themselves.wrong_lists() == 0);
-      Search<Dim> other_group{.of = test::scattered<Dim>(70, 1.0, 4), .sources = clouds[cloud], .box = box, .radius = radius, .same_group = false};
+      among_themselves.once = false;
+      among_themselves.run();
+      CHECK(among_themselves.wrong_lists() == 0);
+      Search<Dim> other_group{.of = test::scattered<Dim>(70, 1.0, 4), .sources = clouds[cloud], .box = box, .cutoff = radius, .same_group = false};
       other_group.of.push_back(clouds[cloud][0]);  // in one place with a source: a neighbour
       other_group.run();
       CHECK(other_group.wrong_lists() == 0);
@@ -112,61 +153,177 @@ TEST_CASE("lists hold whom looking at every pair finds, in space") {
   check_against_every_pair<3>({true, true, true});
 }
 
-TEST_CASE("neighbours exactly at the cut-off are not listed, directly or through a periodic face") {
-  Search<2> search{.of = test::lattice<2>(8, 1.0), .sources = test::lattice<2>(8, 1.0), .box = test::cube<2>(1.0, {true, true}), .radius = 0.125, .same_group = true};
+TEST_CASE("neighbours farther than the cut-off by more than the margin are not listed, those a rounding closer are, directly or through a periodic face") {
+  Search<2> search{.of = test::lattice<2>(8, 1.0), .sources = test::lattice<2>(8, 1.0), .box = test::cube<2>(1.0, {true, true}), .cutoff = 0.125 * (1.0 - 1e-5), .same_group = true};
   search.run();
-  search.for_each_particle([&](std::size_t, auto rows) { CHECK(rows.empty()); });
-  search.radius = std::nextafter(0.125, 1.0);
+  CHECK(search.margin < 0.125e-5);
+  search.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });
+  search.cutoff = std::nextafter(0.125, 1.0);
   search.run();
-  search.for_each_particle([&](std::size_t, auto rows) { CHECK(search.images(rows).size() == 4); });
+  std::size_t pairs = 0;
+  search.for_each_particle([&](std::size_t block, std::size_t i, auto rows) {
+    for (const auto& image : search.images(rows))
+      pairs += image.second == std::array<int, 2>{} && image.first > i && image.first < search.blocks.end(block) ? 2 : 1;
+  });
+  CHECK(pairs == 64 * 4);
 }
 
-TEST_CASE("every neighbour sees back: full lists of one group are symmetric") {
-  const test::Threads threads(3);
-  Search<2> search{.of = test::clustered<2>(300, 1.0, 5), .sources = test::clustered<2>(300, 1.0, 5), .box = test::cube<2>(1.0, {true, true}), .radius = 0.15, .same_group = true};
+TEST_CASE("every neighbour sees back: in full, or as the partner of a pair listed once") {
+  Search<2> search{.of = test::clustered<2>(300, 1.0, 5), .sources = test::clustered<2>(300, 1.0, 5), .box = test::cube<2>(1.0, {true, true}),
+                   .cutoff = 0.15, .same_group = true, .bounds = {0, 50, 51, 200, 300}};
   search.run();
   std::vector<std::vector<std::uint32_t>> seen(search.of.size()), seeing(search.of.size());
-  search.for_each_particle([&](std::size_t i, auto rows) {
+  search.for_each_particle([&](std::size_t block, std::size_t i, auto rows) {
     for (const auto& image : search.images(rows)) {
       seeing[i].push_back(image.first);
       seen[image.first].push_back(static_cast<std::uint32_t>(i));
+      if (image.second != std::array<int, 2>{} || image.first < search.blocks.begin(block) || image.first >= search.blocks.end(block)) continue;
+      seeing[image.first].push_back(static_cast<std::uint32_t>(i));  // the law speaks for both
+      seen[i].push_back(image.first);
     }
   });
   for (auto* lists : {&seen, &seeing})
     for (auto& list : *lists) std::sort(list.begin(), list.end());
   CHECK(seen == seeing);
+  for (std::uint32_t i = 0; i < search.of.size(); ++i) {
+    std::vector<std::uint32_t> near;
+    for (const auto& image : test::all_near<2>(search.of[i], 0.15, i, search.sources, search.box)) near.push_back(image.first);
+    CHECK(seeing[i] == near);
+  }
+}
+
+TEST_CASE("what the skin is for: at each level every pair is there that can act by then, and nobody beyond cut-off and skin is listed") {
+  for (const double skin : {0.0, 0.01, 0.1, 0.5}) {
+    CAPTURE(skin);
+    for (const auto& periodic : {std::array{false, false}, std::array{true, true}})
+      for (const auto& cloud : {test::scattered<2>(120, 1.0, 1), test::clustered<2>(120, 1.0, 2), test::lattice<2>(8, 1.0)}) {
+        Search<2> search{.of = cloud, .sources = cloud, .box = test::cube<2>(1.0, periodic), .cutoff = 0.125, .same_group = true, .skin = skin};
+        search.run();
+        CHECK(search.wrong_lists() == 0);
+        CHECK(search.wrong_levels() == 0);
+      }
+    Search<3> two_groups{.of = test::scattered<3>(50, 1.0, 3), .sources = test::scattered<3>(150, 1.0, 4), .box = test::cube<3>(1.0, {true, false, true}),
+                         .cutoff = 0.2, .same_group = false, .skin = skin};
+    two_groups.run();
+    CHECK(two_groups.wrong_lists() == 0);
+    CHECK(two_groups.wrong_levels() == 0);
+  }
+}
+
+TEST_CASE("the lower levels are shorter: a list just built is read as far as a quarter of the skin") {
+  Search<3> search{.of = test::scattered<3>(600, 1.0, 1), .sources = test::scattered<3>(600, 1.0, 1), .box = test::cube<3>(1.0, {true, true, true}),
+                   .cutoff = 0.2, .same_group = true, .skin = 0.1};
+  search.run();
+  std::array<double, PairList::levels> entries{};
+  search.for_each_particle([&](std::size_t block, std::size_t i, auto) {
+    for (std::size_t level = 0; level < PairList::levels; ++level) entries[level] += static_cast<double>(search.list.of(block, i, level).size());
+  });
+  for (std::size_t level = 0; level < PairList::levels; ++level) {
+    const double radius = 0.2 + 0.1 * static_cast<double>(level + 1) / PairList::levels;
+    CHECK(entries[level] / entries.back() == doctest::Approx(std::pow(radius / 0.3, 3)).epsilon(0.15));  // packs of four make the short ones longer
+  }
+}
+
+TEST_CASE("two groups, each with lists of the other of its own reach, as with two supports") {
+  const auto few = test::scattered<2>(120, 1.0, 1), many = test::clustered<2>(400, 1.0, 2);
+  for (const double cutoff : {0.05, 0.3}) {
+    Search<2> of_few{.of = few, .sources = many, .box = test::cube<2>(1.0, {true, true}), .cutoff = cutoff, .same_group = false, .skin = 0.02};
+    Search<2> of_many{.of = many, .sources = few, .box = test::cube<2>(1.0, {true, true}), .cutoff = cutoff, .same_group = false, .skin = 0.02};
+    of_few.run();
+    of_many.run();
+    CHECK(of_few.wrong_lists() == 0);
+    CHECK(of_many.wrong_lists() == 0);
+  }
+}
+
+TEST_CASE("a grid that reaches further than a list, as when another pair of groups has a longer cut-off") {
+  const auto cloud = test::scattered<2>(300, 1.0, 1);
+  const auto box = test::cube<2>(1.0, {true, false});
+  Ghosts<2> ghosts;
+  ghosts.build(cloud, box, 0.3);
+  auto all = cloud;
+  for (std::size_t k = 0; k < ghosts.size(); ++k) all.push_back(cloud[ghosts.owner[k]] + ghosts.shift[k]);
+  Search<2> search{.of = cloud, .sources = cloud, .box = box, .cutoff = 0.08, .same_group = true, .ghosts = ghosts};
+  for (const double cell_width : {0.02, 0.15, 0.6}) {
+    CellGrid<2> grid;
+    grid.build(all, cell_width);
+    search.blocks.set_bounds(std::vector<std::size_t>{0, 100, 300});
+    search.margin = grid.margin() + 1e-6;
+    search.list.build<2>(search.blocks, cloud, grid, 0.08, 0.0, {true, search.owned(), search.first_ghost(), ghosts.owner}, {}, pack);
+    CHECK(search.wrong_lists() == 0);
+  }
+}
+
+TEST_CASE("lists of several blocks and threads hold whom looking at every pair finds") {
+  const test::Threads threads(4);
+  const auto cloud = test::scattered<1>(4200, 1.0, 6);
+  Search<1> search{.of = cloud, .sources = cloud, .box = test::cube<1>(1.0, {true}), .cutoff = 0.002, .same_group = true, .skin = 0.0005,
+                   .bounds = {0, 1, 1000, 1500, 3000, 3003, 4200}};
+  search.run();
+  CHECK(search.blocks.ranges().size() == 4);
+  CHECK(search.wrong_lists() == 0);
 }
 
 TEST_CASE("lists do not depend on the number of threads, entry by entry") {
+  const auto cloud = test::scattered<3>(5000, 1.0, 6);
+  std::vector<std::size_t> bounds;
+  for (std::size_t block = 0; block <= 10; ++block) bounds.push_back(500 * block);
   std::vector<std::vector<std::uint32_t>> first;
   for (const int count : {1, 2, 3, 4}) {
     const test::Threads threads(count);
-    Search<3> search{.of = test::scattered<3>(500, 1.0, 6), .sources = test::scattered<3>(500, 1.0, 6), .box = test::cube<3>(1.0, {true, true, true}), .radius = 0.2, .same_group = true};
+    Search<3> search{.of = cloud, .sources = cloud, .box = test::cube<3>(1.0, {true, true, true}), .cutoff = 0.08, .same_group = true, .skin = 0.02, .bounds = bounds};
     search.run();
-    CHECK(search.ranges.size() == static_cast<std::size_t>(count));
+    CHECK(search.blocks.ranges().size() == static_cast<std::size_t>(count));
     std::vector<std::vector<std::uint32_t>> lists;
-    search.for_each_particle([&](std::size_t, auto rows) { lists.emplace_back(rows.begin(), rows.end()); });
+    search.for_each_particle([&](std::size_t block, std::size_t i, auto) {
+      for (std::size_t level = 0; level < PairList::levels; ++level) lists.emplace_back(search.list.of(block, i, level).begin(), search.list.of(block, i, level).end());
+    });
     if (first.empty()) first = lists;
     CHECK(lists == first);
   }
 }
 
-TEST_CASE("no particle has no list, and nobody to list leaves lists empty") {
-  Search<2> nobody{.of = {}, .sources = test::scattered<2>(10, 1.0, 7), .box = test::cube<2>(1.0), .radius = 0.5, .same_group = false};
-  nobody.run();
-  int lists = 0;
-  nobody.for_each_particle([&](std::size_t, auto) { ++lists; });
-  CHECK(lists == 0);
-  Search<2> alone{.of = test::scattered<2>(10, 1.0, 8), .sources = {}, .box = test::cube<2>(1.0, {true, true}), .radius = 0.5, .same_group = false};
+TEST_CASE("the entries of a block are those of its particles") {
+  Search<2> search{.of = test::clustered<2>(200, 1.0, 5), .sources = test::clustered<2>(200, 1.0, 5), .box = test::cube<2>(1.0), .cutoff = 0.1,
+                   .same_group = true, .bounds = {0, 60, 61, 200}};
+  search.run();
+  std::vector<double> entries(3, 0.0);
+  search.for_each_particle([&](std::size_t block, std::size_t, auto rows) { entries[block] += static_cast<double>(rows.size()); });
+  for (std::size_t block = 0; block < 3; ++block) CHECK(search.list.entries(search.blocks, block) == entries[block]);
+}
+
+TEST_CASE("no particle has no list, one alone an empty one, and nobody to list leaves lists empty") {
+  for (const bool same_group : {true, false}) {
+    Search<2> nobody{.of = {}, .sources = {}, .box = test::cube<2>(1.0, {true, false}), .cutoff = 0.5, .same_group = same_group};
+    if (!same_group) nobody.sources = test::scattered<2>(10, 1.0, 7);
+    nobody.run();
+    int lists = 0;
+    nobody.for_each_particle([&](std::size_t, std::size_t, auto) { ++lists; });
+    CHECK(lists == 0);
+    CHECK(nobody.list.entries(nobody.blocks, 0) == 0.0);
+  }
+  Search<2> one{.of = {{0.0, 0.0}}, .sources = {{0.0, 0.0}}, .box = test::cube<2>(1.0, {true, true}), .cutoff = 0.3, .same_group = true};
+  one.run();
+  one.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });
+  one.cutoff = 1.1;  // its own images
+  one.box = test::cube<2>(1.2, {true, true});
+  one.skin = 0.05;
+  one.of[0] = one.sources[0] = {0.59, 0.0};
+  one.run();
+  one.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });  // 1.2 m away
+  one.skin = 0.1001;
+  one.run();
+  one.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(one.images(rows).size() == 4); });
+  Search<2> alone{.of = test::scattered<2>(10, 1.0, 8), .sources = {}, .box = test::cube<2>(1.0, {true, true}), .cutoff = 0.5, .same_group = false};
   alone.run();
-  alone.for_each_particle([&](std::size_t, auto rows) { CHECK(rows.empty()); });
+  alone.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });
 }
 
 TEST_CASE("a list built again forgets the lists before") {
-  Search<2> search{.of = test::scattered<2>(100, 1.0, 9), .sources = test::scattered<2>(100, 1.0, 9), .box = test::cube<2>(1.0), .radius = 0.5, .same_group = true};
+  Search<2> search{.of = test::scattered<2>(100, 1.0, 9), .sources = test::scattered<2>(100, 1.0, 9), .box = test::cube<2>(1.0), .cutoff = 0.5, .same_group = true};
   search.run();
   search.of = search.sources = test::scattered<2>(60, 1.0, 10);
-  search.radius = 0.1;
+  search.cutoff = 0.1;
   search.run();
   CHECK(search.wrong_lists() == 0);
 }
@@ -184,17 +341,19 @@ TEST_CASE("bonded particles leave the lists, as ghosts too, and the fillers clos
     CAPTURE(reach);
     Exclusions excluded;
     excluded.build(graph, {0, 12}, {0, 12}, reach);
-    Search<1> search{.of = ring, .sources = ring, .box = test::cube<1>(1.0, {true}), .radius = 4.2 / 12.0, .same_group = true};
+    Search<1> search{.of = ring, .sources = ring, .box = test::cube<1>(1.0, {true}), .cutoff = 3.0 / 12.0, .same_group = true, .skin = 1.2 / 12.0};
     search.run(excluded);
-    search.for_each_particle([&](std::size_t i, auto rows) {
+    search.for_each_particle([&](std::size_t block, std::size_t i, auto rows) {
       CHECK(rows.size() % pack == 0);
       std::vector<std::uint32_t> listed, expected;
       for (const auto& image : search.images(rows)) listed.push_back(image.first);
       for (std::uint32_t j = 0; j < 12; ++j) {
         const int around = std::abs(static_cast<int>(i) - static_cast<int>(j)), apart = std::min(around, 12 - around);
-        if (apart > reach && apart <= 4) expected.push_back(j);
+        const bool listed_there = apart == around && j < i && j >= search.blocks.begin(block);
+        if (apart > reach && apart <= 4 && !listed_there) expected.push_back(j);
       }
       CHECK(listed == expected);
+      CHECK(rows.size() == (expected.size() + pack - 1) / pack * pack);
     });
   }
 }

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <vector>
 #include <doctest/doctest.h>
 #include <dmp/core/field.hpp>
+#include <dmp/core/threads.hpp>
 #include <dmp/particles/columns.hpp>
 
 namespace field = dmp::field;
@@ -48,11 +50,12 @@ TEST_CASE("sorting moves whole particles: every column by the same order, there 
     return columns.get<field::Position>()[row] == Vector<3>(x, -x, 0.5 * x) && columns.get<field::Velocity>()[row] == Vector<3>(2.0 * x, 3.0 * x, 4.0 * x) &&
            columns.get<field::Density>()[row] == 1000.0 + x && columns.get<field::SpecificEnergy>()[row] == 1.0 / (1.0 + x);
   };
-  columns.permute(order);
+  std::vector<double> scratch(3 * count);
+  columns.permute(order, dmp::Ranges(count, 100), scratch.data());
   std::size_t right = 0;
   for (std::size_t k = 0; k < count; ++k) right += holds(k, order[k]);
   CHECK(right == count);
-  columns.permute(back);
+  columns.permute(back, dmp::Ranges(count), scratch.data());
   right = 0;
   for (std::size_t k = 0; k < count; ++k) right += holds(k, static_cast<double>(k));
   CHECK(right == count);
@@ -60,11 +63,12 @@ TEST_CASE("sorting moves whole particles: every column by the same order, there 
 
 TEST_CASE("sorting nobody, or one particle, changes nothing") {
   Columns<1, Fields<field::Position>> columns;
-  columns.permute({});
+  double scratch = 0.0;
+  columns.permute({}, dmp::Ranges(0), &scratch);
   CHECK(columns.get<field::Position>().empty());
   columns.resize(1);
   columns.get<field::Position>()[0][0] = 2.0;
   const std::uint32_t order[] = {0};
-  columns.permute(order);
+  columns.permute(order, dmp::Ranges(1), &scratch);
   CHECK(columns.get<field::Position>()[0][0] == 2.0);
 }

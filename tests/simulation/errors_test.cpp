@@ -83,7 +83,7 @@ TEST_CASE("laws: bad parameters are named before anything is computed") {
 
 TEST_CASE("scene: support radius against spacing and box, inverted and endless boxes") {
   CHECK_THROWS_WITH_AS(pond({.support_radius = 0.09}).run(briefly), doctest::Contains("support radius (cut-off) of water and water must be >= their spacing 0.1 m, got 0.09"), ParameterError);
-  CHECK_THROWS_WITH_AS(pond({.support_radius = 1.0}).run(briefly), doctest::Contains("a periodic box must be longer than support radius and skin (1.1 m), got 1"), ParameterError);
+  CHECK_THROWS_WITH_AS(pond({.support_radius = 1.0}).run(briefly), doctest::Contains("a periodic box must be longer than support radius and skin (1.15 m), got 1"), ParameterError);
   CHECK_THROWS_WITH_AS(pond({.upper = {-1.0, 1.0}}), doctest::Contains("geometry::Box: upper must be > lower in direction x"), ParameterError);
   CHECK_THROWS_WITH_AS(pond({.upper = {not_a_number, 1.0}}), doctest::Contains("geometry::Box: upper must be > lower in direction x"), ParameterError);
   CHECK_THROWS_WITH_AS(pond({.upper = {std::numeric_limits<double>::infinity(), 1.0}}), doctest::Contains("geometry::Box: a periodic direction must be finite"), ParameterError);
@@ -163,7 +163,7 @@ TEST_CASE("checkpoints: missing, truncated, foreign, and of other particle numbe
   auto finer = pond({.spacing = 0.05});
   CHECK_THROWS_WITH_AS(finer.restart(path), doctest::Contains("section water.position must hold 800 numbers, got 200"), io::CheckpointError);
   auto other = pulled_pond(1.0, 0.0, true);
-  CHECK_THROWS_WITH_AS(other.restart(path), doctest::Contains("2D, extrapolated-velocity Verlet; water (mobile)"), io::CheckpointError);
+  CHECK_THROWS_WITH_AS(other.restart(path), doctest::Contains("2D, extrapolated-velocity Verlet, double; water (mobile)"), io::CheckpointError);
   const std::string bytes = read_bytes(path);
   write_bytes(path, bytes.substr(0, bytes.size() / 2));
   CHECK_THROWS_AS(scene.restart(path), io::CheckpointError);

@@ -27,3 +27,12 @@ TEST_CASE("a probe with no particle in its support is dry") {
   CHECK_FALSE(probe<Water, field::Density>(scene, kernel::WendlandC2<2>{.support_radius = 0.1}, Vector<2>(0.6, 0.6)).has_value());
   CHECK(probe<Water, field::Density>(scene, kernel::WendlandC2<2>{.support_radius = 0.1}, Vector<2>(0.12, 0.1)).has_value());
 }
+
+TEST_CASE("a probe reads the fluid that has come to it through the periodic box, however far that has drifted") {
+  auto scene = vortex({});
+  scene.group<Water>().set<field::Velocity>([](const Vector<2>&) { return Vector<2>(100.0, -70.0); });
+  scene.run({.until = 0.03, .time_step = 1e-4});  // three boxes along, two down
+  const auto velocity = probe<Water, field::Velocity>(scene, kernel::WendlandC2<2>{.support_radius = 0.1}, {0.3, 0.6});
+  REQUIRE(velocity.has_value());
+  CHECK((*velocity - Vector<2>(100.0, -70.0)).norm() < 1e-9);
+}

@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <dmp/core/unrolled.hpp>
 
@@ -38,28 +40,68 @@ inline constexpr int native_width = detail::vector_bytes == 0 ? 1 : detail::vect
 template <class Real, int Width>
 struct Mask {
   using Raw __attribute__((vector_size(sizeof(Real) * Width))) = typename detail::Integer<sizeof(Real)>::type;
+  using Unsigned __attribute__((vector_size(sizeof(Real) * Width))) = std::make_unsigned_t<typename detail::Integer<sizeof(Real)>::type>;
   Raw raw;
   friend Mask operator&&(Mask a, Mask b) noexcept { return {a.raw & b.raw}; }
   friend Mask operator||(Mask a, Mask b) noexcept { return {a.raw | b.raw}; }
   friend Mask operator!(Mask a) noexcept { return {~a.raw}; }
   [[nodiscard]] bool operator[](int lane) const noexcept { return raw[lane] != 0; }
+  /// Bit l is lane l.
+  [[nodiscard]] unsigned bits() const noexcept {
+#if defined(__AVX__)
+    if constexpr (sizeof(Raw) == 32 && sizeof(Real) == 8) {
+      double signs __attribute__((vector_size(32)));
+      __builtin_memcpy(&signs, &raw, 32);
+      return static_cast<unsigned>(__builtin_ia32_movmskpd256(signs));
+    }
+    if constexpr (sizeof(Raw) == 32 && sizeof(Real) == 4) {
+      float signs __attribute__((vector_size(32)));
+      __builtin_memcpy(&signs, &raw, 32);
+      return static_cast<unsigned>(__builtin_ia32_movmskps256(signs));
+    }
+#endif
+    unsigned result = 0;
+    for (int lane = 0; lane < Width; ++lane) result |= static_cast<unsigned>(raw[lane] != 0) << lane;
+    return result;
+  }
 };
 
 /// `Width` numbers that go through a law together. Mixes with double, which is spread to all lanes.
 template <class Real, int Width>
 struct Pack {
   using Raw __attribute__((vector_size(sizeof(Real) * Width))) = Real;
+  using Rows __attribute__((vector_size(sizeof(std::uint32_t) * Width))) = std::uint32_t;  ///< row numbers, one per lane
   static constexpr int width = Width;
   Raw raw;
 
   Pack() noexcept = default;
-  Pack(double x) noexcept : raw(Raw{} + static_cast<Real>(x)) {}
+  Pack(double x) noexcept : raw(static_cast<Real>(x) - Raw{}) {}
   explicit Pack(Raw given) noexcept : raw(given) {}
   [[nodiscard]] static Pack load(const Real* from) noexcept {
     Pack result;
     __builtin_memcpy(&result.raw, from, sizeof(Raw));
     return result;
   }
+  /// 0, 1, 2, ...
+  [[nodiscard]] static Rows lane_numbers() noexcept {
+    return []<std::uint32_t... L>(std::integer_sequence<std::uint32_t, L...>) { return Rows{L...}; }
+    (std::make_integer_sequence<std::uint32_t, Width>{});
+  }
+  [[nodiscard]] static Pack all(Real x) noexcept {  // bit by bit
+    return Pack(x - Raw{});
+  }
+  /// a - b of packs that hold whole numbers instead: differences wrap around and are exact.
+  [[nodiscard]] static Pack of_difference(Pack a, Pack b) noexcept {
+    using Whole = typename Mask<Real, Width>::Raw;
+    typename Mask<Real, Width>::Unsigned i, j;
+    __builtin_memcpy(&i, &a.raw, sizeof(Raw));
+    __builtin_memcpy(&j, &b.raw, sizeof(Raw));
+    i -= j;
+    Whole difference;
+    __builtin_memcpy(&difference, &i, sizeof(Raw));
+    return Pack(__builtin_convertvector(difference, Raw));
+  }
+  void store(Real* to) const noexcept { __builtin_memcpy(to, &raw, sizeof(Raw)); }
   [[nodiscard]] Real operator[](int lane) const noexcept { return raw[lane]; }
 
   [[gnu::always_inline]] friend Pack operator+(Pack a, Pack b) noexcept { return Pack(a.raw + b.raw); }
@@ -91,13 +133,30 @@ struct Pack {
   friend Pack select(Mask<Real, Width> mask, Pack yes, Pack no) noexcept { return Pack(mask.raw ? yes.raw : no.raw); }
   friend Pack select(Mask<Real, Width> mask, Pack yes, double no) noexcept { return select(mask, yes, Pack(no)); }
   friend Pack select(Mask<Real, Width> mask, double yes, Pack no) noexcept { return select(mask, Pack(yes), no); }
-  friend Pack min(Pack a, Pack b) noexcept { return Pack(b.raw < a.raw ? b.raw : a.raw); }
-  friend Pack max(Pack a, Pack b) noexcept { return Pack(a.raw < b.raw ? b.raw : a.raw); }
+  friend Pack min(Pack a, Pack b) noexcept {  // one instruction where the compiler would use two
+#if defined(__AVX__)
+    if constexpr (sizeof(Raw) == 32 && sizeof(Real) == 8) return Pack(__builtin_ia32_minpd256(b.raw, a.raw));
+    if constexpr (sizeof(Raw) == 32 && sizeof(Real) == 4) return Pack(__builtin_ia32_minps256(b.raw, a.raw));
+#endif
+    return Pack(b.raw < a.raw ? b.raw : a.raw);
+  }
+  friend Pack max(Pack a, Pack b) noexcept {
+#if defined(__AVX__)
+    if constexpr (sizeof(Raw) == 32 && sizeof(Real) == 8) return Pack(__builtin_ia32_maxpd256(b.raw, a.raw));
+    if constexpr (sizeof(Raw) == 32 && sizeof(Real) == 4) return Pack(__builtin_ia32_maxps256(b.raw, a.raw));
+#endif
+    return Pack(a.raw < b.raw ? b.raw : a.raw);
+  }
   friend Pack min(Pack a, double b) noexcept { return min(a, Pack(b)); }
   friend Pack max(Pack a, double b) noexcept { return max(a, Pack(b)); }
   friend Pack min(double a, Pack b) noexcept { return min(Pack(a), b); }
   friend Pack max(double a, Pack b) noexcept { return max(Pack(a), b); }
 
+  /// The nearest whole number, for |a| < 2^50 (2^21 in single precision).
+  friend Pack nearest_whole(Pack a) noexcept {
+    constexpr double shift = sizeof(Real) == 8 ? 6755399441055744.0 : 12582912.0;  // 1.5 times 2^52 or 2^23: no digits after the point
+    return (a + shift) - shift;
+  }
   friend Pack abs(Pack a) noexcept { return max(a, -a); }
   friend Pack exp(Pack a) noexcept {
     return a.each([](Real x) { return std::exp(x); });
@@ -159,7 +218,44 @@ template <int Step, class Raw, int Width>
     transpose_steps<2 * Step>(row);
   }
 }
+template <int Step, class Raw, int Width>
+[[gnu::always_inline]] inline void sum_steps(Raw (&row)[Width]) noexcept {
+  if constexpr (Step < Width) {
+    unrolled<Width / (2 * Step)>([&](auto pair) __attribute__((always_inline)) {
+      constexpr int first = 2 * Step * pair;
+      exchange<Step>(row[first], row[first + Step], std::make_index_sequence<Width>{});
+      row[first] += row[first + Step];
+    });
+    sum_steps<2 * Step>(row);
+  }
+}
 }  // namespace detail
+
+/// Writes the numbers of `from` whose bit is set side by side to `to`, which has room for all of them.
+template <int Width>
+[[gnu::always_inline]] inline void compress(typename Pack<float, Width>::Rows from, unsigned bits, std::uint32_t* to) noexcept {
+#if defined(__AVX2__)
+  if constexpr (Width == 8) {
+    static constexpr auto lanes_of = [] {
+      std::array<std::array<std::int32_t, 8>, 256> result{};
+      for (unsigned set = 0; set < 256; ++set)
+        for (unsigned lane = 0, next = 0; lane < 8; ++lane)
+          if ((set >> lane & 1u) != 0) result[set][next++] = static_cast<std::int32_t>(lane);
+      return result;
+    }();
+    std::int32_t all __attribute__((vector_size(32))), order __attribute__((vector_size(32)));
+    __builtin_memcpy(&order, lanes_of[bits].data(), 32);
+    __builtin_memcpy(&all, &from, 32);
+    all = __builtin_ia32_permvarsi256(all, order);
+    __builtin_memcpy(to, &all, 32);
+    return;
+  }
+#endif
+  for (int lane = 0; lane < Width; ++lane) {  // written in any case, kept if its bit is set
+    *to = from[lane];
+    to += bits >> lane & 1u;
+  }
+}
 
 /// Loads field by field what lies record by record: out[f] lane l = base[stride * index[l] + f], f < Count. `stride` is a multiple
 /// of the width: whole registers are loaded and transposed, which on AVX is 3 to 4 times as fast as gathering numbers one by one.
@@ -178,6 +274,77 @@ template <int Count, class Real, int Width>
     unrolled<(Count - first < Width ? Count - first : Width)>(
         [&](auto field) __attribute__((always_inline)) { out[first + field] = Pack<Real, Width>(row[field]); });
   });
+}
+
+/// The reverse, added: base[stride * index[l] + f] += in[f] lane l, f < Count, one record after the other, so that an index may stand twice.
+/// Numbers that fill up the last register of a record get zeros added.
+template <int Count, class Real, int Width>
+[[gnu::always_inline]] inline void add_transposed(Real* base, int stride, const std::uint32_t* index, const Pack<Real, Width>* in) noexcept {
+  using Raw = typename Pack<Real, Width>::Raw;
+  unrolled<(Count + Width - 1) / Width>([&](auto block) __attribute__((always_inline)) {
+    constexpr int first = block * Width;
+    Raw row[Width];
+    unrolled<Width>([&](auto field) __attribute__((always_inline)) {
+      if constexpr (first + field < Count) row[field] = in[first + field].raw;
+      else row[field] = Raw{};
+    });
+    detail::transpose_steps<1>(row);
+    unrolled<Width>([&](auto lane) __attribute__((always_inline)) {
+      Real* const to = base + static_cast<std::size_t>(index[lane]) * static_cast<unsigned>(stride) + first;
+      (Pack<Real, Width>::load(to) + Pack<Real, Width>(row[lane])).store(to);
+    });
+  });
+}
+
+/// Lane l is the sum over the lanes of rows[l]; pairs first.
+template <class Real, int Width>
+[[nodiscard, gnu::always_inline]] inline Pack<Real, Width> sum_across(const Pack<Real, Width> (&rows)[Width]) noexcept {
+  typename Pack<Real, Width>::Raw row[Width];
+  unrolled<Width>([&](auto l) __attribute__((always_inline)) { row[l] = rows[l].raw; });
+  detail::sum_steps<1>(row);
+  return Pack<Real, Width>(row[0]);
+}
+
+/// out[f] = sum over the lanes of in[f], f < Count.
+template <int Count, class Real, int Width>
+[[gnu::always_inline]] inline void sum_transposed(const Pack<Real, Width>* in, double* out) noexcept {
+  unrolled<(Count + Width - 1) / Width>([&](auto block) __attribute__((always_inline)) {
+    constexpr int first = block * Width;
+    Pack<Real, Width> rows[Width];
+    unrolled<Width>([&](auto field) __attribute__((always_inline)) {
+      if constexpr (first + field < Count) rows[field] = in[first + field];
+      else rows[field] = 0.0;
+    });
+    const auto sums = sum_across(rows);
+    unrolled<(Count - first < Width ? Count - first : Width)>(
+        [&](auto field) __attribute__((always_inline)) { out[first + field] = static_cast<double>(sums[field]); });
+  });
+}
+
+/// Lanes Part * Width .. of `a`, in double.
+template <int Part, int Width, class Real, int All>
+[[nodiscard, gnu::always_inline]] inline Pack<double, Width> part_of(Pack<Real, All> a) noexcept {
+  if constexpr (All == Width && sizeof(Real) == sizeof(double)) {
+    return a;
+  } else {
+    const auto part = [&]<std::size_t... L>(std::index_sequence<L...>) __attribute__((always_inline)) {
+      return Pack<Real, Width>(__builtin_shufflevector(a.raw, a.raw, (Part * Width + static_cast<int>(L))...));
+    }
+    (std::make_index_sequence<Width>{});
+#if defined(__AVX__)
+    if constexpr (Width == 4) return Pack<double, 4>(__builtin_ia32_cvtps2pd256(part.raw));  // GCC 12 converts halves
+#endif
+    return Pack<double, Width>(__builtin_convertvector(part.raw, typename Pack<double, Width>::Raw));
+  }
+}
+
+/// All lanes are lane `Lane` of `a`.
+template <int Lane, class Real, int Width>
+[[nodiscard, gnu::always_inline]] inline Pack<Real, Width> spread_lane(Pack<Real, Width> a) noexcept {
+  return [&]<std::size_t... L>(std::index_sequence<L...>) __attribute__((always_inline)) {
+    return Pack<Real, Width>(__builtin_shufflevector(a.raw, a.raw, (static_cast<void>(L), Lane)...));
+  }
+  (std::make_index_sequence<Width>{});
 }
 
 }  // namespace dmp

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 #if defined(_OPENMP)
 #include <omp.h>
@@ -37,15 +40,22 @@ class Ranges {
   [[nodiscard]] std::size_t begin(std::size_t range) const noexcept { return bounds_[range]; }
   [[nodiscard]] std::size_t end(std::size_t range) const noexcept { return bounds_[range + 1]; }
 
+  /// The same with bounds of the caller's: range r holds rows bounds[r] .. bounds[r + 1] - 1.
+  explicit Ranges(std::vector<std::size_t> bounds) : bounds_(std::move(bounds)) {}
+
  private:
   std::vector<std::size_t> bounds_{0, 0};
 };
 
-/// Calls function(range, first row, one past the last row) for every range, each on its own thread. What a range throws is thrown on.
-template <class Function>
-void for_each_range(const Ranges& ranges, Function&& function) {
+namespace detail {
+/// A function of a range without its type: what a loop does is compiled once, not once for each way to run it.
+struct RangeFunction {
+  void* object;
+  void (*call)(void* object, std::size_t range, std::size_t first, std::size_t last);
+};
+inline void run_ranges(const Ranges& ranges, RangeFunction function) {
   if (ranges.size() == 1) {
-    function(std::size_t{0}, ranges.begin(0), ranges.end(0));
+    function.call(function.object, 0, ranges.begin(0), ranges.end(0));
     return;
   }
 #if defined(_OPENMP)
@@ -55,7 +65,7 @@ void for_each_range(const Ranges& ranges, Function&& function) {
   for (int range = 0; range < count; ++range) {
     const auto r = static_cast<std::size_t>(range);
     try {
-      function(r, ranges.begin(r), ranges.end(r));
+      function.call(function.object, r, ranges.begin(r), ranges.end(r));
     } catch (...) {
 #pragma omp critical(dmp_failure)
       failure = std::current_exception();
@@ -63,8 +73,103 @@ void for_each_range(const Ranges& ranges, Function&& function) {
   }
   if (failure) std::rethrow_exception(failure);
 #else
-  for (std::size_t range = 0; range < ranges.size(); ++range) function(range, ranges.begin(range), ranges.end(range));
+  for (std::size_t range = 0; range < ranges.size(); ++range) function.call(function.object, range, ranges.begin(range), ranges.end(range));
 #endif
+}
+}  // namespace detail
+
+/// Calls function(range, first row, one past the last row) for every range, each on its own thread. What a range throws is thrown on.
+template <class Function>
+void for_each_range(const Ranges& ranges, Function&& function) {
+  using F = std::remove_reference_t<Function>;
+  detail::run_ranges(ranges, {const_cast<std::remove_const_t<F>*>(&function), [](void* object, std::size_t range, std::size_t first,
+                                                                                std::size_t last) {
+                                (*static_cast<F*>(object))(range, first, last);
+                              }});
+}
+
+/// The largest of function(first row, one past the last row) over all ranges, by `merge(a, b)`, which must not depend on the order.
+template <class T, class Function, class Merge>
+[[nodiscard]] T merge_ranges(const Ranges& ranges, T start, Function&& function, Merge&& merge) {
+  for_each_range(ranges, [&](std::size_t, std::size_t first, std::size_t last) {
+    const T part = function(first, last);
+#if defined(_OPENMP)
+#pragma omp critical(dmp_merge)
+#endif
+    start = merge(start, part);
+  });
+  return start;
+}
+
+/// Rows in contiguous blocks, which depend on the particles alone, and the blocks divided among the threads. Who is summed with whom, and
+/// in which order, is decided within blocks: results do not depend on the number of threads.
+class Blocks {
+ public:
+  /// Rows of a block where `count` particles are sorted in space: its sums stay in a core's cache, most neighbours are in the same block, and
+  /// there are enough blocks to share out.
+  [[nodiscard]] static constexpr std::size_t rows_wanted(std::size_t count) noexcept { return std::clamp<std::size_t>(count / 64, 4096, 16384); }
+
+  /// For each block, rows after those of the particles where sums end up that nobody wants; apart, so that no two threads share a cache line.
+  static constexpr std::size_t far_rows = 8;
+  [[nodiscard]] std::size_t far_row(std::size_t block) const noexcept { return bounds_.back() + far_rows * block; }
+
+  Blocks() = default;
+  /// Equal blocks, for particles in an order that is not ours: at most 16 of them, since those that act on each other lie apart by whole
+  /// layers of the body.
+  explicit Blocks(std::size_t count) {
+    const std::size_t blocks = std::clamp<std::size_t>(count / 4096, 1, 16);
+    bounds_.resize(blocks + 1);
+    for (std::size_t b = 0; b <= blocks; ++b) bounds_[b] = count * b / blocks;
+    divide_evenly();
+  }
+  /// Block b holds rows bounds[b] .. bounds[b + 1] - 1.
+  void set_bounds(std::span<const std::size_t> bounds) {
+    bounds_.assign(bounds.begin(), bounds.end());
+    divide_evenly();
+  }
+  /// Gives every thread blocks of about the same total cost; `cost(block)` in any unit.
+  template <class Cost>
+  void divide(const Cost& cost) {
+    double total = 0.0;
+    for (std::size_t b = 0; b < size(); ++b) total += cost(b);
+    const std::size_t parts = worth_ranges();
+    first_block_.assign(1, 0);
+    double reached = 0.0;
+    for (std::size_t b = 0; b < size(); ++b) {  // a block goes where its middle lies
+      const double middle = reached + 0.5 * cost(b);
+      while (first_block_.size() < parts && middle * static_cast<double>(parts) >= total * static_cast<double>(first_block_.size()))
+        first_block_.push_back(b);
+      reached += cost(b);
+    }
+    first_block_.resize(parts, size());
+    first_block_.push_back(size());
+    std::vector<std::size_t> rows;
+    for (const std::size_t b : first_block_) rows.push_back(bounds_[b]);
+    ranges_ = Ranges(std::move(rows));
+  }
+
+  [[nodiscard]] std::size_t size() const noexcept { return bounds_.size() - 1; }
+  [[nodiscard]] std::size_t begin(std::size_t block) const noexcept { return bounds_[block]; }
+  [[nodiscard]] std::size_t end(std::size_t block) const noexcept { return bounds_[block + 1]; }
+  [[nodiscard]] const Ranges& ranges() const noexcept { return ranges_; }  ///< rows of each thread, whole blocks
+  [[nodiscard]] std::size_t first_block(std::size_t range) const noexcept { return first_block_[range]; }
+
+ private:
+  [[nodiscard]] std::size_t worth_ranges() const { return std::min(Ranges(bounds_.back()).size(), size()); }
+  void divide_evenly() {
+    divide([this](std::size_t b) { return static_cast<double>(end(b) - begin(b)); });
+  }
+
+  std::vector<std::size_t> bounds_{0, 0}, first_block_{0, 1};
+  Ranges ranges_;
+};
+
+/// Calls function(range, block) for every block, the blocks of a range one after the other on one thread.
+template <class Function>
+void for_each_block(const Blocks& blocks, Function&& function) {
+  for_each_range(blocks.ranges(), [&](std::size_t range, std::size_t, std::size_t) {
+    for (std::size_t b = blocks.first_block(range); b < blocks.first_block(range + 1); ++b) function(range, b);
+  });
 }
 
 }  // namespace dmp

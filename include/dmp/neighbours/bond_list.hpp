@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 #include <dmp/core/require.hpp>
+#include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/geometry/box.hpp>
 
@@ -17,6 +18,7 @@ namespace dmp::neighbours {
 struct Bond {
   std::uint32_t i, j;
   double rest_length = -1.0;  ///< r0 [m], >= 0; negative: the initial distance
+  double weight = 1.0;        ///< what the law says times this, >= 0: bonds on a surface or an edge of a lattice are shared by fewer cells
 };
 
 /// Longest bond, in each direction, as a fraction of a periodic box: beyond one half the shortest way would be another bond.
@@ -34,56 +36,114 @@ template <int Dim>
   return a_minus_b;
 }
 
-/// The bonds of each particle of one group: who is at the other end, and the rest length. Every bond stands here once per end that moves.
-/// The bonds of a particle fill whole packs; what fills up has a negative rest length and repeats the last partner.
+/// The bonds of each particle of one group. As in PairList, a bond in the same block of the same group is listed once, at the particle
+/// further up; all others at each end that lies in this group. The bonds of a particle fill whole packs; what fills up has a negative rest
+/// length and names the particle itself, or repeats the last partner if that is of another group.
 class BondList {
  public:
   static constexpr double filler = -1.0;  ///< rest length of an entry that is no bond
 
-  /// `own_is_j` picks the end that lies in this group, for bonds whose ends lie in two groups; `pack` entries make a whole pack.
-  void build(std::size_t particles, std::span<const Bond> bonds, bool both_ends, bool own_is_j, std::size_t pack) {
-    std::vector<std::uint32_t> count(particles, 0);
-    const auto each = [&](auto&& put) {
+  /// Entries of one particle, `size` of them.
+  struct Entries {
+    std::size_t size;
+    const std::uint32_t* partner;
+    const std::uint32_t* reaction;  ///< row to which the reaction is added: the partner's, or one that nobody wants
+    const double* rest_length;
+    const double* weight;
+    std::size_t weight_step;  ///< 0: all weights are 1, and one pack of them is there
+  };
+
+  /// `same_group`: both ends lie in this group; if not, `own_is_j` picks the end that does. `pack` entries make a whole pack.
+  void build(const Blocks& blocks, std::span<const Bond> bonds, bool same_group, bool own_is_j, std::size_t pack) {
+    const std::size_t particles = blocks.end(blocks.size() - 1);
+    std::vector<std::uint32_t> block_of(particles);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) block_of[i] = static_cast<std::uint32_t>(b);
+    const auto each = [&](auto&& put) {  // put(own row, partner, listed once, bond)
       for (const Bond& bond : bonds) {
-        if (both_ends || !own_is_j) put(bond.i, bond.j, bond.rest_length);
-        if (both_ends || own_is_j) put(bond.j, bond.i, bond.rest_length);
+        if (!same_group) {
+          put(own_is_j ? bond.j : bond.i, own_is_j ? bond.i : bond.j, false, bond);
+          continue;
+        }
+        const std::uint32_t first = std::min(bond.i, bond.j), second = std::max(bond.i, bond.j);
+        const bool once = block_of[first] == block_of[second];
+        put(first, second, once, bond);
+        if (!once) put(second, first, false, bond);
       }
     };
-    each([&count](std::uint32_t own, std::uint32_t, double) { ++count[own]; });
+    std::vector<std::uint32_t> count(particles, 0);
+    each([&count](std::uint32_t own, std::uint32_t, bool, const Bond&) { ++count[own]; });
+    sum_of_weights_.assign(particles, 0.0);
+    bool weighted = false;
+    for (const Bond& bond : bonds) {
+      if (same_group || !own_is_j) sum_of_weights_[bond.i] += bond.weight;
+      if (same_group || own_is_j) sum_of_weights_[bond.j] += bond.weight;
+      weighted = weighted || bond.weight != 1.0;
+    }
     offset_.assign(particles + 1, 0);
     for (std::size_t i = 0; i < particles; ++i)
       offset_[i + 1] = offset_[i] + static_cast<std::uint32_t>((count[i] + pack - 1) / pack * pack);
     partner_.assign(offset_[particles], 0);
+    reaction_.assign(offset_[particles], 0);
     rest_length_.assign(offset_[particles], filler);
+    weight_.assign(weighted ? offset_[particles] : pack, 1.0);
+    weight_step_ = weighted ? 1 : 0;
+    crosses_.assign(particles, 0);
+    const auto nowhere = [&](std::size_t i, std::uint32_t entry) {
+      return static_cast<std::uint32_t>(blocks.far_row(block_of[i]) + entry % pack);
+    };
     std::vector<std::uint32_t> cursor(offset_.begin(), offset_.end() - 1);
-    each([&](std::uint32_t own, std::uint32_t other, double rest_length) {
+    each([&](std::uint32_t own, std::uint32_t other, bool once, const Bond& bond) {
       const std::uint32_t to = cursor[own]++;
       partner_[to] = other;
-      rest_length_[to] = rest_length;
+      reaction_[to] = once ? other : nowhere(own, to);
+      rest_length_[to] = bond.rest_length;
+      if (weighted) weight_[to] = bond.weight;
     });
     for (std::size_t i = 0; i < particles; ++i)
-      for (std::uint32_t k = cursor[i]; k < offset_[i + 1]; ++k) partner_[k] = partner_[cursor[i] - 1];
+      for (std::uint32_t k = cursor[i]; k < offset_[i + 1]; ++k) {
+        partner_[k] = same_group ? static_cast<std::uint32_t>(i) : partner_[k - 1];
+        reaction_[k] = nowhere(i, k);
+      }
   }
 
-  /// Partners and rest lengths of particle i, whole packs.
-  [[nodiscard]] std::span<const std::uint32_t> packs(std::size_t i) const noexcept {
-    return {partner_.data() + offset_[i], offset_[i + 1] - offset_[i]};
+  /// Marks the particles with bonds through periodic faces, as positions are now; until they are put back into the box, nothing changes.
+  template <int Dim>
+  void mark_crossing(std::span<const Vector<Dim>> own, std::span<const Vector<Dim>> partners, const geometry::Box<Dim>& box) {
+    for (std::size_t i = 0; i + 1 < offset_.size(); ++i) {
+      crosses_[i] = 0;
+      for (std::uint32_t k = offset_[i]; k < offset_[i + 1]; ++k) {
+        const Vector<Dim> apart = own[i] - partners[partner_[k]];
+        if (rest_length_[k] >= 0.0 && apart != minimum_image<Dim>(apart, box)) crosses_[i] = 1;
+      }
+    }
   }
-  [[nodiscard]] const double* rest_lengths(std::size_t i) const noexcept { return rest_length_.data() + offset_[i]; }
-  /// The same without what fills up.
-  [[nodiscard]] std::span<const std::uint32_t> partners(std::size_t i) const noexcept {
-    std::size_t count = offset_[i + 1] - offset_[i];
-    while (count > 0 && rest_lengths(i)[count - 1] < 0.0) --count;
-    return packs(i).first(count);
+  [[nodiscard]] bool crosses(std::size_t i) const noexcept { return crosses_[i] != 0; }
+
+  /// Of particle i, whole packs.
+  [[nodiscard]] Entries of(std::size_t i) const noexcept {
+    const std::uint32_t first = offset_[i];
+    return {offset_[i + 1] - first,      partner_.data() + first,
+            reaction_.data() + first,    rest_length_.data() + first,
+            weight_.data() + weight_step_ * first, weight_step_};
   }
+  /// Sum of the weights of the bonds of particle i, wherever they are listed.
+  [[nodiscard]] double sum_of_weights(std::size_t i) const noexcept { return sum_of_weights_[i]; }
   [[nodiscard]] bool empty() const noexcept { return partner_.empty(); }
+  /// Entries of a block, what a sweep over it costs.
+  [[nodiscard]] double entries(const Blocks& blocks, std::size_t block) const noexcept {
+    return empty() ? 0.0 : static_cast<double>(offset_[blocks.end(block)] - offset_[blocks.begin(block)]);
+  }
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return offset_.size() * sizeof(std::uint32_t) + partner_.size() * (sizeof(std::uint32_t) + sizeof(double));
+    return (offset_.size() + partner_.size() + reaction_.size()) * sizeof(std::uint32_t) +
+           (rest_length_.size() + weight_.size() + sum_of_weights_.size()) * sizeof(double) + crosses_.size();
   }
 
  private:
-  std::vector<std::uint32_t> offset_{0}, partner_;
-  std::vector<double> rest_length_;
+  std::vector<std::uint32_t> offset_{0}, partner_, reaction_;
+  std::vector<double> rest_length_, weight_, sum_of_weights_;
+  std::size_t weight_step_ = 0;
+  std::vector<std::uint8_t> crosses_;
 };
 
 /// Fills in the rest lengths left open, and rejects what is not a bond: an end that does not exist, both ends the same particle, length
@@ -107,6 +167,7 @@ void complete_bonds(std::vector<Bond>& bonds, std::span<const Vector<Dim>> first
       if (!(length > 0.0)) fail(bond, "length must be > 0 m (the two ends coincide; give a rest_length if that is meant)");
     }
     if (!(bond.rest_length - bond.rest_length == 0.0)) fail(bond, "rest_length must be finite");
+    if (!(bond.weight >= 0.0 && bond.weight - bond.weight == 0.0)) fail(bond, "weight must be >= 0 and finite");
     for (int d = 0; d < Dim; ++d)
       if (box.periodic[static_cast<std::size_t>(d)] &&
           std::max(std::fabs(apart[d]), bond.rest_length) > longest_periodic_bond * (box.upper[d] - box.lower[d]))

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace dmp::neighbours {
@@ -36,16 +35,10 @@ class Exclusions {
     }
   }
 
-  /// Takes the excluded partners of particle i out of rows[begin ..], keeping the order of the others. Rows from `owned` on are ghosts,
-  /// images of particles owner[row - owned].
-  void remove(std::uint32_t i, std::vector<std::uint32_t>& rows, std::size_t begin, std::uint32_t owned,
-              std::span<const std::uint32_t> owner) const {
-    if (excluded_.empty() || excluded_[i].empty()) return;
-    const auto& skip = excluded_[i];
-    const auto excluded = [&](std::uint32_t row) {
-      return std::binary_search(skip.begin(), skip.end(), row < owned ? row : owner[row - owned]);
-    };
-    rows.erase(std::remove_if(rows.begin() + static_cast<std::ptrdiff_t>(begin), rows.end(), excluded), rows.end());
+  [[nodiscard]] bool any(std::uint32_t i) const noexcept { return !excluded_.empty() && !excluded_[i].empty(); }
+  /// Whether particle i skips particle j of the other group.
+  [[nodiscard]] bool holds(std::uint32_t i, std::uint32_t j) const noexcept {
+    return any(i) && std::binary_search(excluded_[i].begin(), excluded_[i].end(), j);
   }
 
  private:

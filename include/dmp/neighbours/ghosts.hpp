@@ -1,8 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+#include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/geometry/box.hpp>
 
@@ -25,17 +27,29 @@ struct Ghosts {
     for (int d = 0; d < Dim; ++d) {
       if (!box.periodic[static_cast<std::size_t>(d)]) continue;
       const double length = box.upper[d] - box.lower[d];
-      const std::size_t owned = positions.size(), before = owner.size();
+      const std::size_t before = owner.size();
+      const auto near_lower = [&](double x) { return x < box.lower[d] + reach; };
+      const auto near_upper = [&](double x) { return x >= box.upper[d] - reach; };
+      const Ranges ranges(positions.size());
+      near_.resize(std::max(near_.size(), ranges.size()));
+      for_each_range(ranges, [&](std::size_t range, std::size_t first, std::size_t last) {
+        near_[range].clear();
+        for (std::size_t row = first; row < last; ++row)
+          if (near_lower(positions[row][d]) || near_upper(positions[row][d])) near_[range].push_back(static_cast<std::uint32_t>(row));
+      });
       const auto image = [&](std::uint32_t row, Vector<Dim> by, double x) {
-        if (x < box.lower[d] + reach) add(row, by, d, length);
-        if (x >= box.upper[d] - reach) add(row, by, d, -length);
+        if (near_lower(x)) add(row, by, d, length);
+        if (near_upper(x)) add(row, by, d, -length);
       };
-      for (std::size_t row = 0; row < owned; ++row) image(static_cast<std::uint32_t>(row), Vector<Dim>::Zero(), positions[row][d]);
+      for (std::size_t range = 0; range < ranges.size(); ++range)
+        for (const std::uint32_t row : near_[range]) image(row, Vector<Dim>::Zero(), positions[row][d]);
       for (std::size_t ghost = 0; ghost < before; ++ghost) image(owner[ghost], shift[ghost], positions[owner[ghost]][d] + shift[ghost][d]);
     }
   }
 
  private:
+  std::vector<std::vector<std::uint32_t>> near_;  // rows near the faces of one direction, per range of rows
+
   void add(std::uint32_t row, Vector<Dim> by, int direction, double length) {
     by[direction] += length;
     owner.push_back(row);

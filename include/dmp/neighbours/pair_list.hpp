@@ -1,9 +1,14 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
+#include <dmp/core/aligned.hpp>
+#include <dmp/core/pack.hpp>
 #include <dmp/core/require.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
@@ -12,56 +17,144 @@
 
 namespace dmp::neighbours {
 
-/// For each particle of one group, the rows of its neighbours in another (or the same) group: full lists, every pair seen from both sides.
-/// The list of a particle is filled up to whole packs of `pack` entries with `filler`, a row far away from everything.
+/// For each particle of one group, the rows of its neighbours in another (or the same) group. A pair in the same block of the same group is
+/// listed once, at the particle further up, and its law evaluated for both; all others (ghosts, other groups, other blocks) are listed at
+/// each end that evolves. A list is ordered by how much of the skin must have been used up before a pair can act: a sweep reads only as far
+/// as its `level`. It fills whole packs of `pack` entries with rows far away from everything.
 class PairList {
  public:
-  /// The particles that are listed: rows 0 .. owned - 1 of the source group, then one ghost for each of `owner`, then the filler.
+  /// The particles that are listed: rows 0 .. owned - 1 of the source group; then rows far away from everything (Blocks::far_rows for each
+  /// block of the source group); then a ghost for each of `owner`.
   struct Sources {
     bool same_group;  ///< then a particle is not its own neighbour
-    std::uint32_t owned;
+    std::uint32_t owned, first_ghost;
     std::span<const std::uint32_t> owner;
-  };
+    bool once = true;  ///< pairs of a block are listed once; otherwise at both ends like all others
 
-  /// `ranges` divides the particles that get lists among the threads; `radius` [m] is the cut-off and the skin.
+        /// Row of the k-th of all owned particles and ghosts.
+    [[nodiscard]] std::uint32_t row(std::uint32_t k) const noexcept { return k < owned ? k : k - owned + first_ghost; }
+    [[nodiscard]] std::uint32_t original(std::uint32_t row) const noexcept { return row < owned ? row : owner[row - first_ghost]; }
+  };
+  static constexpr std::size_t levels = 4;  ///< of use of the skin: pairs of level l act once (l + 1)/levels of the skin is used up, at most
+
+  /// `grid` holds the owned sources, then the ghosts. Pairs within `cutoff` + `skin` [m] are listed, and
+  /// perhaps some that are farther apart by less than the margin of the grid.
   template <int Dim>
-  void build(const Ranges& ranges, std::span<const Vector<Dim>> positions, const CellGrid<Dim>& grid, double radius, const Sources& sources,
-             const Exclusions& excluded, std::size_t pack) {
-    const auto filler = static_cast<std::uint32_t>(sources.owned + sources.owner.size());
-    rows_.resize(ranges.size());
-    offset_.resize(positions.size() + ranges.size());
-    for_each_range(ranges, [&](std::size_t range, std::size_t first, std::size_t last) {
+  void build(const Blocks& blocks, std::span<const Vector<Dim>> positions, const CellGrid<Dim>& grid, double cutoff, double skin,
+             const Sources& sources, const Exclusions& excluded, std::size_t pack) {
+    pack_ = pack;
+    at_.resize(positions.size());
+    start_.resize(blocks.size());
+    rows_.resize(std::max(rows_.size(), blocks.ranges().size()));
+    found_.resize(rows_.size());
+    for (auto& rows : rows_) rows.clear();
+    std::array<float, levels> within;  // squared distance, as a fraction of the longest; rounded up
+    for (std::size_t l = 0; l < levels; ++l) {
+      const double radius = cutoff + skin * static_cast<double>(l + 1) / levels + grid.margin(), longest = cutoff + skin + grid.margin();
+      within[l] = static_cast<float>(radius * radius / (longest * longest) * (1.0 + 1e-6));
+    }
+    for_each_block(blocks, [&](std::size_t range, std::size_t block) {
       auto& rows = rows_[range];
-      rows.clear();
+      const std::size_t first = blocks.begin(block), last = blocks.end(block);
+      start_[block] = {range, rows.size()};
+      make_room(rows, blocks, range, first);
       for (std::size_t i = first; i < last; ++i) {
-        offset_[i + range] = static_cast<std::uint32_t>(rows.size());
+        Found& found = found_[range].found;
+        found.size = 0;
+        grid.find(positions[i], cutoff + skin, found);
+        At& at = at_[i];
+        at.first = static_cast<std::uint32_t>((rows.size() - start_[block].first) / pack);
         const std::size_t begin = rows.size();
-        const auto row = static_cast<std::uint32_t>(i);
-        grid.find(positions[i], radius, sources.same_group ? row : CellGrid<Dim>::nobody, rows);
-        excluded.remove(row, rows, begin, sources.owned, sources.owner);
-        while (rows.size() % pack != 0) rows.push_back(filler);
-        if (rows.size() > std::numeric_limits<std::uint32_t>::max())
-          throw ParameterError(
-              "neighbours::PairList: more than 2^32 neighbours in one thread's range; use more threads or a smaller support radius");
+        rows.resize(begin + found.size + pack + Lanes::width);
+        choose_listed(found, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(sources.once ? first : i), sources, excluded);
+        std::size_t end = begin;
+        for (std::size_t l = 0; l < levels; ++l) {
+          const Lanes from(l > 0 ? within[l - 1] : 0.0f), to(within[l]);
+          for (std::size_t k = 0; k < found.size; k += Lanes::width) {
+            const Lanes fraction = Lanes::load(found.fraction.data() + k);
+            const unsigned in_level = (fraction >= from && fraction < to).bits();
+            typename Lanes::Rows numbers;
+            __builtin_memcpy(&numbers, found.rows.data() + k, sizeof(numbers));
+            compress<Lanes::width>(numbers, in_level, rows.data() + end);
+            end += static_cast<std::size_t>(__builtin_popcount(in_level));
+          }
+          const std::size_t packs = (end - begin + pack - 1) / pack;
+          if (packs > 0xffff)
+            throw ParameterError("neighbours::PairList: a particle must have fewer than " + std::to_string(0xffff * pack) +
+                                 " neighbours, got " + std::to_string(end - begin));
+          at.packs[l] = static_cast<std::uint16_t>(packs);
+        }
+        for (; (end - begin) % pack != 0; ++end)
+          rows[end] = sources.owned + static_cast<std::uint32_t>(sources.same_group ? Blocks::far_rows * block : 0);
+        rows.resize(end);
       }
-      offset_[last + range] = static_cast<std::uint32_t>(rows.size());
     });
   }
 
-  /// Neighbours of particle i, which lies in `range`.
-  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t range, std::size_t i) const noexcept {
-    const std::uint32_t first = offset_[i + range], last = offset_[i + range + 1];
-    return {rows_[range].data() + first, last - first};
+  /// Of particle i, which lies in `block`, the neighbours that can act while no more than (level + 1)/levels of the skin is used up.
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t block, std::size_t i, std::size_t level = levels - 1) const noexcept {
+    const At& at = at_[i];
+    return {rows_[start_[block].range].data() + start_[block].first + pack_ * at.first, pack_ * at.packs[level]};
+  }
+  /// Entries of a block, what a sweep over it costs.
+  [[nodiscard]] double entries(const Blocks& blocks, std::size_t block) const noexcept {
+    if (at_.empty() || blocks.begin(block) == blocks.end(block)) return 0.0;
+    const At& last = at_[blocks.end(block) - 1];
+    return static_cast<double>(pack_) * (last.first + last.packs[levels - 1]);
   }
   [[nodiscard]] std::size_t bytes() const noexcept {
-    std::size_t result = offset_.capacity() * sizeof(std::uint32_t);
+    std::size_t result = at_.capacity() * sizeof(At);
     for (const auto& rows : rows_) result += rows.capacity() * sizeof(std::uint32_t);
     return result;
   }
 
  private:
-  std::vector<std::uint32_t> offset_;             // of particle i in range r: offset_[i + r] .. offset_[i + r + 1]
-  std::vector<std::vector<std::uint32_t>> rows_;  // one vector per range
+  struct At {
+    std::uint32_t first;  // pack, counted from the start of the block
+    std::array<std::uint16_t, levels> packs;  // of each level, with those before
+  };
+  struct Start {
+    std::size_t range, first;
+  };
+  using Lanes = Pack<float, native_width<float>>;
+  struct alignas(64) FoundOfRange {  // no two threads share a cache line
+    Found found;
+  };
+
+  /// Names found particles by their rows, and takes out those that are not listed here: their fraction becomes infinite. `begin`: first row
+  /// of those that list their pairs with i.
+  static void choose_listed(Found& found, std::uint32_t i, std::uint32_t begin, const Sources& sources, const Exclusions& excluded) {
+    const std::size_t size = found.size;
+    constexpr float never = std::numeric_limits<float>::infinity();
+    found.make_room(Lanes::width);
+    std::uint32_t* const __restrict rows = found.rows.data();
+    float* const __restrict fraction = found.fraction.data();
+    const std::uint32_t owned = sources.owned, to_ghosts = sources.first_ghost - sources.owned;
+    const std::uint32_t further_up = sources.same_group ? i + 1 - begin : 0;  // and itself
+    for (std::size_t k = 0; k < size; ++k) {  // in vector registers: no branches, differences wrap around
+      const std::uint32_t row = rows[k] + (rows[k] < owned ? 0u : to_ghosts);
+      rows[k] = row;
+      fraction[k] = row - begin < further_up ? never : fraction[k];
+    }
+    if (excluded.any(i))
+      for (std::size_t k = 0; k < size; ++k)
+        if (excluded.holds(i, sources.original(rows[k]))) fraction[k] = never;
+    std::fill(fraction + size, fraction + size + Lanes::width, never);
+  }
+
+  /// Memory for the rest of a range, by the look of the rows before `next`; without it vectors would take twice what they need.
+  static void make_room(AlignedVector<std::uint32_t>& rows, const Blocks& blocks, std::size_t range, std::size_t next) {
+    const auto done = static_cast<double>(next - blocks.ranges().begin(range)), all = static_cast<double>(blocks.ranges().end(range) - blocks.ranges().begin(range));
+    if (!(done > 0.0)) return;
+    const double expected = static_cast<double>(rows.size()) * all / done;
+    if (static_cast<double>(rows.capacity()) < 1.01 * expected) rows.reserve(static_cast<std::size_t>(1.03 * expected) + 1024);
+  }
+
+  std::size_t pack_ = 1;
+  std::vector<At> at_;
+  std::vector<Start> start_;                        // of each block
+  std::vector<AlignedVector<std::uint32_t>> rows_;  // one vector per range
+  std::vector<FoundOfRange> found_;                 // the same
 };
 
 }  // namespace dmp::neighbours

@@ -1,11 +1,13 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <tuple>
 #include <utility>
-#include <vector>
+#include <dmp/core/aligned.hpp>
 #include <dmp/core/field.hpp>
+#include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
 
 namespace dmp::particles {
@@ -24,45 +26,48 @@ class Columns<Dim, Fields<Field...>> {
   static constexpr std::size_t bytes_per_particle = (std::size_t{0} + ... + sizeof(Value<Dim, Field>));
 
   template <class F>
-  [[nodiscard]] std::vector<Value<Dim, F>>& get() noexcept {
+  [[nodiscard]] AlignedVector<Value<Dim, F>>& get() noexcept {
     return std::get<Column<F>>(columns_).values;
   }
   template <class F>
-  [[nodiscard]] const std::vector<Value<Dim, F>>& get() const noexcept {
+  [[nodiscard]] const AlignedVector<Value<Dim, F>>& get() const noexcept {
     return std::get<Column<F>>(columns_).values;
   }
   void resize(std::size_t count) { (resize_one(get<Field>(), count), ...); }
 
-  /// Moves row order[k] to row k, for all columns; `order` is a permutation of 0 .. count - 1.
-  void permute(std::span<const std::uint32_t> order) {
-    (permute_one(get<Field>(), std::get<Scratch<Value<Dim, Field>>>(scratch_).values, order), ...);
+  /// Moves row order[k] to row k, for all columns; `order` is a permutation of 0 .. count - 1, `scratch` has room for count vectors.
+  void permute(std::span<const std::uint32_t> order, const Ranges& ranges, double* scratch) {
+    (permute_one(get<Field>(), order, ranges, scratch), ...);
   }
 
  private:
   template <class F>
   struct Column {
-    std::vector<Value<Dim, F>> values;
+    AlignedVector<Value<Dim, F>> values;
   };
   template <class V>
-  struct Scratch {
-    std::vector<V> values;
-  };
-
-  template <class V>
-  static void resize_one(std::vector<V>& values, std::size_t count) {
-    if constexpr (std::is_same_v<V, double>) values.resize(count, 0.0);
-    else values.resize(count, V::Zero());
+  static void resize_one(AlignedVector<V>& values, std::size_t count) {
+    const std::size_t old = std::min(values.size(), count);
+    values.resize(count);
+    for_each_range(Ranges(count), [&values, old](std::size_t, std::size_t first, std::size_t last) {  // each thread places its rows in memory
+      if (last <= old) return;
+      first = std::max(first, old);
+      if constexpr (std::is_same_v<V, double>) std::fill(values.data() + first, values.data() + last, 0.0);
+      else std::fill(values.data() + first, values.data() + last, V::Zero());
+    });
   }
   template <class V>
-  static void permute_one(std::vector<V>& values, std::vector<V>& scratch, std::span<const std::uint32_t> order) {
-    scratch.resize(values.size());
-    const auto count = static_cast<std::ptrdiff_t>(order.size());
-    for (std::ptrdiff_t k = 0; k < count; ++k) scratch[static_cast<std::size_t>(k)] = values[order[static_cast<std::size_t>(k)]];
-    values.swap(scratch);
+  static void permute_one(AlignedVector<V>& values, std::span<const std::uint32_t> order, const Ranges& ranges, double* scratch) {
+    V* const copy = reinterpret_cast<V*>(scratch);
+    for_each_range(ranges, [&](std::size_t, std::size_t first, std::size_t last) {
+      std::copy(values.data() + first, values.data() + last, copy + first);
+    });
+    for_each_range(ranges, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) values[k] = copy[order[k]];
+    });
   }
 
   std::tuple<Column<Field>...> columns_;
-  std::tuple<Scratch<double>, Scratch<Vector<Dim>>> scratch_;
 };
 
 }  // namespace dmp::particles

@@ -42,6 +42,11 @@ template <class G, class A, class B, class Law, bool S>
 inline constexpr bool joins<G, Bonds<A, B, Law, S>> = std::is_same_v<G, A> || std::is_same_v<G, B>;
 
 template <class G, class Item>
+inline constexpr bool acts_within = false;  // an interaction with G at both ends
+template <class G, class... Law>
+inline constexpr bool acts_within<G, Interaction<G, G, Law...>> = true;
+
+template <class G, class Item>
 struct OfItem {
   using reads = Fields<>;
   using writes = Fields<>;
@@ -111,7 +116,7 @@ struct StartPosition {
 
 /// What one group of a scene holds: sets of fields and yes-or-no answers, without the items they come from (which keeps names short).
 template <class Columns, class State, class Rates, class Record, class Constants, class Derived, class Writes, bool HasPairs, bool HasBonds,
-          bool HasSubsteps>
+          bool HasSubsteps, bool SumsInMemory>
 struct Layout {
   using columns = Columns;                ///< stored from step to step
   using state = State;                    ///< the columns that material and pair laws read, beside position and velocity
@@ -122,6 +127,7 @@ struct Layout {
   using seen = unite<Record, Constants>;  ///< what laws see of a particle
   using prepared = unite<Fields<field::Position, field::Velocity>, State, Derived, Constants>;  ///< what material laws work on
   static constexpr bool has_pairs = HasPairs, has_bonds = HasBonds, has_substeps = HasSubsteps, has_records = HasPairs || HasBonds;
+  static constexpr bool sums_in_memory = SumsInMemory;  ///< has pairs between its own particles, or bonds
 };
 
 /// A rate of change as it was one step ago, for integrators that extrapolate the state.
@@ -158,7 +164,8 @@ struct Compose {
   using only_if = std::conditional_t<Wanted, Fields<Field...>, Fields<>>;
 
   using reads = unite<typename OfItem<Tag, Item>::reads...>;
-  using writes = unite<typename OfItem<Tag, Item>::writes...>;
+  using writes = unite<std::conditional_t<has_bonds, Fields<field::Force>, Fields<>>,  // the force first: bonds add it in whole registers
+                       typename OfItem<Tag, Item>::writes...>;
   using constants = unite<Fields<field::Mass>, typename OfMaterial<Tag, Item>::constants...>;
   using derived = unite<typename OfMaterial<Tag, Item>::derived...>;
   using material_reads = unite<typename OfMaterial<Tag, Item>::reads...>;
@@ -174,7 +181,7 @@ struct Compose {
       has_pairs || has_bonds,
       unite<Fields<field::Position>, only_if<(OfItem<Tag, Item>::uses_velocity || ...), field::Velocity>, subtract<reads, constants>>,
       Fields<>>;
-  using type = Layout<columns, state, rates, record, constants, derived, writes, has_pairs, has_bonds, has_substeps>;
+  using type = Layout<columns, state, rates, record, constants, derived, writes, has_pairs, has_bonds, has_substeps, Mobility::evolves && (has_bonds || (acts_within<Tag, Item> || ...))>;
 };
 
 }  // namespace detail

@@ -7,14 +7,14 @@
 
 namespace dmp::simulation {
 
-/// Bytes that a scene holds per particle: columns, ids, records, ghosts, cell grid and lists.
+/// Bytes that a scene holds per particle: columns, ids, records, sums, ghosts, cell grid, lists, and what sorting needs.
 template <class Scene>
 [[nodiscard]] double bytes_per_particle(const Scene& scene) {
   double bytes = 0.0;
   scene.engine().for_each_group([&bytes](const auto& g) {
     using G = std::remove_cvref_t<decltype(g)>;
     bytes += static_cast<double>(g.size() * (G::Columns::bytes_per_particle + sizeof(std::uint32_t)));
-    if constexpr (G::Layout::has_records) bytes += static_cast<double>(g.records.size() * G::Records::bytes_per_particle());
+    if constexpr (G::Layout::has_records) bytes += static_cast<double>(g.records.bytes() + g.sums.bytes());
     if constexpr (G::Layout::has_pairs)
       bytes += static_cast<double>(g.at_list_build.size() * sizeof(Vector<G::Dim>) + g.grid.bytes() +
                                    g.ghosts.size() * (sizeof(std::uint32_t) + sizeof(Vector<G::Dim>)));
@@ -33,7 +33,7 @@ template <class Scene>
   std::ostringstream text;
   const auto fields = [&text]<class... Field>(Fields<Field...>) { ((text << ' ' << Field::name), ...); };
   text << "groups\n";
-  int gathers = 0, integrations = 0, packs = 0;
+  int gathers = 0, passes = 0;
   scene.engine().for_each_group([&](const auto& g) {
     using G = std::remove_cvref_t<decltype(g)>;
     using L = typename G::Layout;
@@ -50,8 +50,7 @@ template <class Scene>
     fields(typename L::constants{});
     text << "; " << g.ghost_count() << " ghosts\n";
     if (G::Mobility::evolves) {
-      ++integrations;
-      if (L::has_records) ++packs;
+      ++passes;
       if (particles::is_mobile<typename G::Mobility> || !std::is_same_v<typename L::rates, Fields<>>) ++gathers;
     }
   });
@@ -77,7 +76,8 @@ template <class Scene>
   if (!any) text << "  none\n";
   if constexpr (std::remove_cvref_t<decltype(scene.engine())>::has_substeps)
     text << "sub-steps of the sub-stepped bonds: as many as the step asks for, each one record pass and one gather sweep of its groups\n";
-  text << "each step: " << packs << " record passes, " << gathers << " gather sweeps, " << 2 * integrations << " integration passes";
+  text << "each step: " << passes << (passes == 1 ? " pass" : " passes") << " over the particles (integration, records), " << gathers
+       << (gathers == 1 ? " sweep" : " sweeps") << " over their pairs and bonds";
   if constexpr (!std::remove_cvref_t<decltype(scene.engine())>::has_pairs) text << ", no neighbour lists, no ghosts";
   text << "\ntime step <= " << limit.time_step << " s, bound by " << limit.bound_by << '\n';
   text << bytes_per_particle(scene) << " bytes per particle\n";

@@ -11,10 +11,10 @@
 namespace dmp::simulation {
 
 /// One time step of a model: begin, lists when needed, forces, end. Knows neither output nor the length of the run.
-template <int Dim, class Integrator, class... Item>
-class Engine : public Forces<Dim, Integrator, Item...> {
+template <int Dim, class Integrator, class Precision, class... Item>
+class Engine : public Forces<Dim, Integrator, Precision, Item...> {
   static_assert(integrator::explain_integrator<Integrator>());
-  using Base = Forces<Dim, Integrator, Item...>;
+  using Base = Forces<Dim, Integrator, Precision, Item...>;
 
  public:
   using Base::Base, Base::group, Base::for_each_group, Base::for_each_item, Base::has_pairs;
@@ -31,13 +31,12 @@ class Engine : public Forces<Dim, Integrator, Item...> {
   /// Accelerations and rates from the present state, e.g. before the first step; `time` [s] as forcings see it.
   void evaluate(double time) {
     for_each_group([&](auto& g) {
-      for (std::size_t i = 0; i < g.size(); ++i) follow_motion(g, i, time);
+      for_each_particle(g, [&](std::size_t i) { follow_motion(g, i, time); });
     });
-    this->build_lists();
-    if constexpr (has_substeps) {
-      this->fast_forces();
-    }
-    this->forces(time, 0.0);
+    this->build_lists(true);
+    this->pack_all(0.0);
+    if constexpr (has_substeps) this->fast_forces();
+    this->gather_all(time, 0.0);
     if constexpr (Integrator::keeps_rates)
       for_each_group([](auto& g) {
         for_each_field(typename LayoutOf<decltype(g)>::rates{},
@@ -46,25 +45,30 @@ class Engine : public Forces<Dim, Integrator, Item...> {
   }
 
   /// First part of a step of length `dt` [s] that ends at `time` [s]: everything moves. Returns whether neighbour lists are worn out, so
-  /// that build_lists must be called before `finish_step`.
+  /// that build_lists must be called before `forces`.
   [[nodiscard]] bool begin_step(double dt, double time) {
     if constexpr (has_substeps) begin_with_substeps(dt, time);
-    else for_each_group([&](auto& g) { begin(g, dt, time); });
-    bool worn = false;
-    if constexpr (has_pairs)
-      for_each_item([&](const auto& active) {
-        using I = std::remove_cvref_t<decltype(active.item)>;
-        if constexpr (is_interaction<I>)
-          worn =
-              worn || !(this->moved_[Base::template index_of<typename I::A>()] + this->moved_[Base::template index_of<typename I::B>()] <=
-                        this->skin_);
-      });
-    return worn;
+    else for_each_group([&](auto& g) { pass(g, 0.0, dt, time); });
+    return lists_are_worn();
   }
-  /// Second part: forces at the new positions, and the end of the step.
-  void finish_step(double dt, double time) {
-    this->forces(time, dt);
-    for_each_group([&](auto& g) { end(g, dt); });
+  /// Second part: forces at the new positions. `fresh_lists`: they were built since the step began.
+  void forces(double dt, double time, bool fresh_lists) {
+    if (has_substeps || fresh_lists) this->pack_all(dt);  // otherwise the records are those that begin_step has left
+    this->gather_all(time, dt);
+  }
+  /// Last part: the end of the step.
+  void end_step(double dt) {
+    for_each_group([&](auto& g) { pass(g, dt, 0.0, 0.0); });
+  }
+  /// end_step of a step of length `last_dt` and begin_step of the next, in one pass over the particles.
+  [[nodiscard]] bool go_on(double last_dt, double dt, double time) {
+    if constexpr (has_substeps) {
+      end_step(last_dt);
+      return begin_step(dt, time);
+    } else {
+      for_each_group([&](auto& g) { pass(g, last_dt, dt, time); });
+      return lists_are_worn();
+    }
   }
 
  private:
@@ -75,26 +79,98 @@ class Engine : public Forces<Dim, Integrator, Item...> {
   template <class G>
   static constexpr bool mobile = Base::template mobile<G>;
 
+  /// The end of the last step, of length `last_dt`, and the beginning of the next, of length `dt`, up to the records; 0 for none.
   template <class G>
-  void begin(G& g, double dt, double time) {
+  void pass(G& g, double last_dt, double dt, double time) {
     using C = LayoutOf<G>;
-    farthest_.assign(g.ranges.size(), 0.0);
-    for_each_range(g.ranges, [&](std::size_t range, std::size_t first, std::size_t last) {
-      double farthest = 0.0;
-      for (std::size_t i = first; i < last; ++i) {
-        if constexpr (mobile<G>) {
-          Integrator::begin(g.positions()[i], g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
-        } else {
-          follow_motion(g, i, time);
+    if constexpr (evolves<G>) {
+      for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t first, std::size_t last) {
+        const auto one = [&](std::size_t i) {
+          if (last_dt > 0.0) end(g, i, last_dt);
+          if (!(dt > 0.0)) return;
+          begin(g, i, dt, time);
+          if constexpr (C::has_records) this->pack_one(g, i, dt);
+        };
+        follow(g, range, first, last, one);
+      });
+      if (dt > 0.0) this->pack_ghosts(g);
+    }
+  }
+  /// Calls function(i) for the rows of a range, and keeps account of their displacements.
+  template <class G, class Function>
+  void follow(G& g, std::size_t range, std::size_t first, std::size_t last, const Function& function) {
+    if constexpr (G::Mobility::moves && LayoutOf<G>::has_pairs) {
+      auto& runs = g.runs[range];
+      for (std::size_t r = 0; r < runs.size(); ++r) {
+        const std::size_t end_of_run = r + 1 < runs.size() ? runs[r + 1].first : last;
+        neighbours::Bounds<Dim> bounds;
+        for (std::size_t i = runs[r].first; i < end_of_run; ++i) {
+          function(i);
+          bounds.add(g.positions()[i] - g.at_list_build[i]);
         }
-        for_each_field(typename C::rates{}, [&]<class Rate>(Rate) {
-          Integrator::begin_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
-        });
-        if constexpr (G::Mobility::moves && C::has_pairs) farthest = std::max(farthest, displacement(g, i));
+        runs[r].displacement = bounds;
       }
-      farthest_[range] = farthest;
+    } else {
+      for (std::size_t i = first; i < last; ++i) function(i);
+    }
+  }
+  template <class G>
+  void begin(G& g, std::size_t i, double dt, double time) {
+    if constexpr (mobile<G>)
+      Integrator::begin(g.positions()[i], g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
+    else follow_motion(g, i, time);
+    begin_state(g, i, dt);
+  }
+  template <class G>
+  void begin_state(G& g, std::size_t i, double dt) {
+    for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
+      Integrator::begin_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
     });
-    this->moved_[Base::template index_of<typename G::Tag>()] = std::sqrt(*std::max_element(farthest_.begin(), farthest_.end()));
+  }
+  template <class G>
+  void end(G& g, std::size_t i, double dt) {
+    if constexpr (LayoutOf<G>::has_substeps)
+      g.template get<field::Velocity>()[i] += 0.5 * dt * g.template get<field::Acceleration>()[i];  // the second slow kick
+    else if constexpr (mobile<G>) Integrator::end(g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
+    for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
+      Integrator::end_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
+    });
+  }
+  /// Whether neighbours have moved relative to each other by more than the skin, or all of them too far; and how far the lists must be read until then.
+  [[nodiscard]] bool lists_are_worn() {
+    if constexpr (has_pairs) {
+      this->relative_motion_.start();
+      for_each_group_in_pairs([this](auto& g) {
+        for (const auto& runs : g.runs) this->relative_motion_.add(runs);
+      });
+      if (!(this->relative_motion_.finish() <= this->skin_)) return true;
+      if (this->relative_motion_.farthest() > this->longest_cutoff_) return true;  // time to go back into the periodic box
+      for_each_group_in_pairs([this](auto& g) {
+        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t, std::size_t) {
+          std::size_t block = g.blocks.first_block(range);
+          double used = 0.0;
+          const auto close_block = [&] {
+            constexpr auto levels = static_cast<double>(neighbours::PairList::levels);
+            const double level = this->skin_ > 0.0 ? std::ceil(used / this->skin_ * levels) - 1.0 : levels - 1.0;
+            g.level[block++] = static_cast<std::uint8_t>(std::clamp(level, 0.0, levels - 1.0));
+            used = 0.0;
+          };
+          for (const auto& run : g.runs[range]) {
+            while (run.first >= g.blocks.end(block)) close_block();
+            used = std::max(used, this->relative_motion_.used(run.cell));
+          }
+          while (block < g.blocks.first_block(range + 1)) close_block();
+        });
+      });
+    }
+    return false;
+  }
+  template <class Function>
+  void for_each_group_in_pairs(Function&& function) {
+    for_each_group([&](auto& g) {
+      using G = std::remove_cvref_t<decltype(g)>;
+      if constexpr (LayoutOf<G>::has_pairs) function(g);
+    });
   }
 
   /// Puts a particle of a driven group where its motion has it at `time`; nothing for other groups.
@@ -102,43 +178,21 @@ class Engine : public Forces<Dim, Integrator, Item...> {
   void follow_motion(G& g, std::size_t i, double time) {
     if constexpr (particles::is_driven<typename G::Mobility>) {
       const auto& start = g.template get<StartPosition>()[i];
-      g.positions()[i] = this->box_.wrap(g.mobility.motion.position(start, time));
+      const Vector<Dim> there = this->box_.wrap(g.mobility.motion.position(start, time));
+      g.positions()[i] += neighbours::minimum_image<Dim>(there - g.positions()[i], this->box_);  // no jump before lists are built again
       g.template get<field::Velocity>()[i] = g.mobility.motion.velocity(start, time);
     }
   }
-  /// Square of the distance from where the particle was when the lists were built.
-  template <class G>
-  [[nodiscard]] double displacement(const G& g, std::size_t i) const {
-    return neighbours::minimum_image<Dim>(g.positions()[i] - g.at_list_build[i], this->box_).squaredNorm();
-  }
-
-  template <class G>
-  void end(G& g, double dt) {
-    if constexpr (evolves<G>)
-      for_each_range(g.ranges, [&](std::size_t, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-          if constexpr (LayoutOf<G>::has_substeps)
-            g.template get<field::Velocity>()[i] += 0.5 * dt * g.template get<field::Acceleration>()[i];  // the second slow kick
-          else if constexpr (mobile<G>) Integrator::end(g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
-          for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
-            Integrator::end_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
-          });
-        }
-      });
-  }
-
   /// Slow forces are kicks at the two ends of the step; between them the sub-stepped bonds alone move their groups.
   void begin_with_substeps(double dt, double time) {
     const double part = dt / substeps_;
     for_each_group([&](auto& g) {
       using G = std::remove_cvref_t<decltype(g)>;
-      if constexpr (!LayoutOf<G>::has_substeps) begin(g, dt, time);
+      if constexpr (!LayoutOf<G>::has_substeps) pass(g, 0.0, dt, time);
       else
         for_each_particle(g, [&](std::size_t i) {
           g.template get<field::Velocity>()[i] += 0.5 * dt * g.template get<field::Acceleration>()[i];
-          for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
-            Integrator::begin_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
-          });
+          begin_state(g, i, dt);
         });
     });
     for (int k = 0; k < substeps_; ++k) {
@@ -157,11 +211,10 @@ class Engine : public Forces<Dim, Integrator, Item...> {
     }
     for_each_group([&](auto& g) {
       using G = std::remove_cvref_t<decltype(g)>;
-      if constexpr (LayoutOf<G>::has_substeps && LayoutOf<G>::has_pairs) {
-        double farthest = 0.0;
-        for (std::size_t i = 0; i < g.size(); ++i) farthest = std::max(farthest, displacement(g, i));
-        this->moved_[Base::template index_of<typename G::Tag>()] = std::sqrt(farthest);
-      }
+      if constexpr (LayoutOf<G>::has_substeps && LayoutOf<G>::has_pairs)
+        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t first, std::size_t last) {
+          follow(g, range, first, last, [](std::size_t) {});
+        });
     });
   }
   template <class Function>
@@ -172,12 +225,11 @@ class Engine : public Forces<Dim, Integrator, Item...> {
   }
   template <class G, class Function>
   static void for_each_particle(const G& g, Function&& function) {
-    for_each_range(g.ranges, [&](std::size_t, std::size_t first, std::size_t last) {
+    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) function(i);
     });
   }
 
-  std::vector<double> farthest_;  // squared, per range, while a group moves
   int substeps_ = 1;
 };
 

@@ -6,26 +6,41 @@
 #include <utility>
 #include <dmp/integrator/concept.hpp>
 #include <dmp/simulation/model.hpp>
+#include <dmp/sweep/bonds.hpp>
+#include <dmp/sweep/gather.hpp>
 
 namespace dmp::simulation {
 
 /// What a model's laws say of its present state: records of all particles, then sums over pairs and bonds, accelerations and rates.
-template <int Dim, class Integrator, class... Item>
-class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
-  using Base = Model<Dim, Integrator::keeps_rates, Item...>;
+template <int Dim, class Integrator, class Precision, class... Item>
+class Forces : public Model<Dim, Integrator::keeps_rates, Precision, Item...> {
+  using Base = Model<Dim, Integrator::keeps_rates, Precision, Item...>;
 
  public:
   using Base::Base, Base::group, Base::for_each_group, Base::for_each_item;
 
-  /// Fresh lists and ghosts; every particle may have got another row. A run that goes on from here and one that restarts here from a
-  /// checkpoint do the same arithmetic.
-  void build_lists() {
-    this->find_neighbours();
+  /// Fresh lists and ghosts; every particle may have got another row. The records of groups that evolve must be packed next. With `sort`, a
+  /// run that goes on from here and one that restarts here from a checkpoint do the same arithmetic.
+  void build_lists(bool sort) {
+    this->find_neighbours(sort);
     for_each_group([](auto& g) {
-      if constexpr (LayoutOf<decltype(g)>::has_records) g.records.resize(g.size() + g.ghost_count() + 1);
+      using C = LayoutOf<decltype(g)>;
+      if constexpr (C::has_records) g.records.resize(g.first_ghost() + g.ghost_count());
+      if constexpr (C::sums_in_memory && Precision::pairs_once) {
+        g.sums.resize(g.first_ghost());
+        for_each_range(g.blocks.ranges(), [&g](std::size_t, std::size_t first, std::size_t last) { g.sums.set_zero(first, last); });
+        g.sums.set_zero(g.size(), g.first_ghost());
+      }
     });
-    pack_all(0.0);
     refresh_frozen();
+    for_each_group([&](auto& g) {
+      if constexpr (LayoutOf<decltype(g)>::has_pairs) {
+        pack_one(g, 0, 0.0);
+        auto far_away = g.records.load(0);
+        for (double& x : far_away.position.component) x = 1e30;
+        for (std::size_t row = g.size(); row < g.first_ghost(); ++row) g.records.store(row, far_away);
+      }
+    });
   }
   /// Records of groups that do not evolve, which steps leave alone: for what the user has changed between runs.
   void refresh_frozen() {
@@ -78,8 +93,8 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
       if constexpr (LayoutOf<decltype(g)>::has_records && evolves<decltype(g)>) pack(g, dt);
     });
   }
-  void forces(double time, double dt) {
-    pack_all(dt);
+  /// Accelerations and rates from the records as they are.
+  void gather_all(double time, double dt) {
     for_each_group([&](auto& g) { gather<false>(g, time, dt); });
   }
   /// Sub-stepped bonds alone; of the groups at their ends only those that have moved are packed again.
@@ -93,28 +108,36 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
     });
   }
 
+  /// Record of particle i as laws see it in a step of length `dt`.
+  template <class G>
+  void pack_one(G& g, std::size_t i, double dt) noexcept {
+    using Record = typename LayoutOf<G>::record;
+    const auto particle = prepared(g, i, dt);
+    View<Dim, double, Record> record;
+    copy_fields(Record{}, record, particle);
+    g.records.store(i, record);
+  }
+  /// Records of the ghosts, once those of their originals are right.
+  template <class G>
+  void pack_ghosts(G& g) {
+    if constexpr (LayoutOf<G>::has_pairs)
+      for_each_range(Ranges(g.ghosts.size()), [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+          auto record = g.records.load(g.ghosts.owner[k]);
+          record.position += to_components<Dim>(g.ghosts.shift[k]);
+          g.records.store(g.first_ghost() + k, record);
+        }
+      });
+  }
+
  private:
-  /// Records of all particles of a group, of its ghosts, and the one far away.
+  /// Records of all particles of a group and of its ghosts.
   template <class G>
   void pack(G& g, double dt) {
-    using Record = typename LayoutOf<G>::record;
-    for_each_range(g.ranges, [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const auto particle = prepared(g, i, dt);
-        View<Dim, double, Record> record;
-        copy_fields(Record{}, record, particle);
-        g.records.store(i, record);
-      }
+    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) pack_one(g, i, dt);
     });
-    if constexpr (LayoutOf<G>::has_pairs)
-      for (std::size_t k = 0; k < g.ghosts.size(); ++k) {
-        auto record = g.records.load(g.ghosts.owner[k]);
-        record.position += to_components<Dim>(g.ghosts.shift[k]);
-        g.records.store(g.size() + k, record);
-      }
-    auto far_away = g.records.load(0);
-    for (double& x : far_away.position.component) x = 1e30;
-    g.records.store(g.size() + g.ghost_count(), far_away);
+    pack_ghosts(g);
   }
 
   template <class Law, class Particle>
@@ -137,64 +160,77 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
     (one(Field{}), ...);
   }
 
-  /// What the items say of particle i: pairs and bonds of one phase.
-  template <bool Fast, class G, class Sums>
-  void sum_items(const G& g, std::size_t range, std::size_t i, Sums& sums) const noexcept {
+  /// What the items say of particle i, which lies in `block`: pairs and bonds of one phase.
+  template <bool Fast, class G, class Sums, class Add>
+  [[gnu::always_inline]] void sum_items(const G& g, std::size_t block, std::size_t i, Sums& sums, const Add& add) const noexcept {
     using Tag = typename G::Tag;
-    const auto self = g.template spread<Lanes>(i);
-    for_each_item([&](const auto& active) {
+    [[maybe_unused]] const auto self = g.template spread<Lanes>(i);
+    for_each_item([&](const auto& active) __attribute__((always_inline)) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_interaction<I> && !Fast) {
-        if constexpr (std::is_same_v<Tag, typename I::A>) pairs<typename I::B>(self, active.of_a.of(range, i), sums, active.item);
-        if constexpr (std::is_same_v<Tag, typename I::B> && !std::is_same_v<Tag, typename I::A>)
-          pairs<typename I::A>(self, active.of_b.of(range, i), sums, active.item);
+        if constexpr (std::is_same_v<Tag, typename I::A>)
+          pairs<typename I::B>(self, active.of_a.of(block, i, g.level[block]), sums, add, active.item);
+        else if constexpr (std::is_same_v<Tag, typename I::B>)
+          pairs<typename I::A>(self, active.of_b.of(block, i, g.level[block]), sums, add, active.item);
       }
       if constexpr (is_bonds<I>)
         if constexpr (mobile<G> && I::substepped == Fast) {
-          if constexpr (std::is_same_v<Tag, typename I::A>) bonds<typename I::B>(self, i, active.of_a, sums, active.item.law);
-          if constexpr (std::is_same_v<Tag, typename I::B> && !std::is_same_v<Tag, typename I::A>)
-            bonds<typename I::A>(self, i, active.of_b, sums, active.item.law);
+          if constexpr (std::is_same_v<Tag, typename I::A>) bonds<typename I::B>(g, i, active.of_a, add, active.item.law);
+          else if constexpr (std::is_same_v<Tag, typename I::B>) bonds<typename I::A>(g, i, active.of_b, add, active.item.law);
         }
     });
   }
-  template <class Source, class Self, class Sums, class I>
-  void pairs(const Self& self, std::span<const std::uint32_t> neighbours, Sums& sums, const I& item) const noexcept {
-    const auto& source = this->template group<Source>();
+  template <class Source, class Self, class Sums, class Add, class I>
+  [[gnu::always_inline]] void pairs(const Self& self, std::span<const std::uint32_t> neighbours, Sums& sums, const Add& add,
+                                    const I& item) const noexcept {
+    const auto source = this->template group<Source>().reader();
     std::apply(
-        [&](const auto&... law) {
-          sweep::sum_pairs<Dim>(
-              self, [&source](const std::uint32_t* index) { return source.gather(index); }, neighbours, sums, law...);
+        [&](const auto&... law) __attribute__((always_inline)) {
+          if constexpr (std::is_same_v<typename I::A, typename I::B> && Precision::pairs_once)
+            sweep::sum_pairs_of_both<Dim>(self, source, neighbours, sums, add, law...);
+          else sweep::sum_pairs<Dim>(self, source, neighbours, sums, law...);
         },
         item.laws);
   }
-  template <class Source, class Self, class Sums, class Law>
-  void bonds(const Self& self, std::size_t i, const neighbours::BondList& list, Sums& sums, const Law& law) const noexcept {
+  /// Adds the force of the bonds of particle i to its row of sums, and the reactions to the rows of its partners if they are of this group.
+  template <class Source, class G, class Add, class Law>
+  [[gnu::always_inline]] void bonds(const G& g, std::size_t i, const neighbours::BondList& list, const Add& add, const Law& law) const noexcept {
     const auto& source = this->template group<Source>();
-    const auto view = [&source](const std::uint32_t* index) { return source.gather(index); };
-    if (is_periodic_) sweep::sum_bonds<Dim, true>(self, view, list.packs(i), list.rest_lengths(i), this->periods_, sums, law);
-    else sweep::sum_bonds<Dim, false>(self, view, list.packs(i), list.rest_lengths(i), this->periods_, sums, law);
+    using Partners = typename std::remove_cvref_t<decltype(source)>::Records;
+    const sweep::BondRecords records{g.records.data() + i * G::Records::stride, source.records.data(), Partners::stride};
+    const auto plus = [&add](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
+      double* const to = add.data + row * static_cast<std::size_t>(G::Sums::stride);
+      sweep::Row<Dim>::load(to).plus(factor, vector).store(to);
+    };
+    const auto react = [&plus](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
+      if constexpr (std::is_same_v<Source, typename G::Tag>) plus(row, factor, vector);
+    };
+    if (list.crosses(i)) plus(i, 1.0, sweep::sum_bonds<Dim, true>(records, list.of(i), bond_periods_, react, law));
+    else plus(i, 1.0, sweep::sum_bonds<Dim, false>(records, list.of(i), bond_periods_, react, law));
   }
 
   template <bool Fast, class G>
   void gather(G& g, double time, double dt) {
     using C = LayoutOf<G>;
-    using Sums = std::conditional_t<Fast, Fields<field::Force>, typename C::writes>;
     constexpr bool needed = mobile<G> || !std::is_same_v<typename C::rates, Fields<>>;
     if constexpr (needed)
-      for_each_range(g.ranges, [&](std::size_t range, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-          View<Dim, double, Sums> total;
-          sweep::set_zero(total);
+      for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
+        const std::size_t end = g.blocks.end(block);
+        [[maybe_unused]] const double inverse_mass = 1.0 / g.mass;
+        for (std::size_t i = g.blocks.begin(block); i < end; ++i) {
+          const auto add = g.sums.adder(i + 1, end, g.blocks.far_row(block));
+          View<Dim, double, typename C::writes> total;
           if constexpr (C::has_records) {
-            View<Dim, Lanes, Sums> sums;
+            View<Dim, Lanes, typename C::writes> sums;
             sweep::set_zero(sums);
-            sum_items<Fast>(g, range, i, sums);
-            sweep::add_lanes(total, sums);
+            sum_items<Fast>(g, block, i, sums, add);
+            if constexpr (C::sums_in_memory && Precision::pairs_once) total = g.sums.take(i, sums);
+            else total = G::Sums::totals(sums);
           }
           if constexpr (mobile<G>) {
             Vector<Dim> acceleration = Vector<Dim>::Zero();
-            if constexpr (contains<field::Acceleration, Sums>) acceleration += to_vector<Dim>(total.acceleration);
-            if constexpr (contains<field::Force, Sums>) acceleration += to_vector<Dim>(total.force) / g.mass;
+            if constexpr (contains<field::Acceleration, typename C::writes>) acceleration += to_vector<Dim>(total.acceleration);
+            if constexpr (contains<field::Force, typename C::writes>) acceleration += inverse_mass * to_vector<Dim>(total.force);
             if constexpr (Fast) {
               g.template get<FastAcceleration>()[i] = acceleration;
             } else {
@@ -226,7 +262,7 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Item...> {
     return result;
   }
 
-  bool is_periodic_ = std::find(this->box_.periodic.begin(), this->box_.periodic.end(), true) != this->box_.periodic.end();
+  sweep::Periods<Dim> bond_periods_{this->periods_};
 };
 
 }  // namespace dmp::simulation

@@ -6,12 +6,16 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <dmp/core/aligned.hpp>
 #include <dmp/core/field.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/neighbours/cell_grid.hpp>
 #include <dmp/neighbours/ghosts.hpp>
+#include <dmp/neighbours/pair_list.hpp>
+#include <dmp/neighbours/relative_motion.hpp>
 #include <dmp/particles/columns.hpp>
 #include <dmp/particles/records.hpp>
+#include <dmp/particles/sums.hpp>
 #include <dmp/particles/view.hpp>
 #include <dmp/simulation/composition.hpp>
 
@@ -25,12 +29,14 @@ template <int Dim>
 struct Neighbourhood<Dim, true> {
   neighbours::Ghosts<Dim> ghosts{};
   neighbours::CellGrid<Dim> grid{};
-  std::vector<Vector<Dim>> at_list_build{};  ///< positions when the neighbour lists were built
+  AlignedVector<Vector<Dim>> at_list_build{};  ///< positions when the neighbour lists were built
+  std::vector<std::vector<neighbours::Run<Dim>>> runs{};  ///< of particles that were in one coarse cell then, per range of rows
+  std::vector<std::uint8_t> level{};                      ///< of each block: how far its lists must be read (PairList)
 };
 }  // namespace detail
 
 /// One group of a running scene: its columns, its records with their ghosts, and the cell grid in which others look for it.
-template <class Item, class Layout_>
+template <class Item, class Layout_, class Precision>
 class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
  public:
   using Tag = typename Item::Tag;
@@ -38,17 +44,18 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
   using Layout = Layout_;
   static constexpr int Dim = Item::Dim;
   using Columns = particles::Columns<Dim, typename Layout::columns>;
-  using Records = particles::Records<Dim, typename Layout::record>;
+  using Records = particles::Records<Dim, typename Layout::record, Precision>;
+  using Sums = particles::Sums<Dim, typename Layout::writes>;
 
   explicit Group(const Item& item) : name(item.name), mobility(item.mobility), mass(item.mass), spacing(item.points.spacing) {
     columns.resize(item.points.positions.size());
-    positions() = item.points.positions;
+    positions().assign(item.points.positions.begin(), item.points.positions.end());
     if constexpr (particles::is_driven<Mobility>) columns.template get<StartPosition>() = positions();
     id.resize(positions().size());
     for (std::size_t k = 0; k < id.size(); ++k) id[k] = static_cast<std::uint32_t>(k);
     constants.mass = mass;
+    blocks = Blocks(size());
     if constexpr (Layout::has_pairs) this->at_list_build = positions();
-    ranges = Ranges(size());
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return id.size(); }
@@ -90,6 +97,16 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
     return result;
   }
 
+  /// Rows of `records`: the particles, then rows far away from everything (PairList), then the ghosts.
+  [[nodiscard]] std::size_t first_ghost() const noexcept {
+    return blocks.far_row(blocks.size());
+  }
+  /// What others list of this group.
+  [[nodiscard]] neighbours::PairList::Sources sources(bool for_itself) const noexcept {
+    return {for_itself, static_cast<std::uint32_t>(size()), static_cast<std::uint32_t>(first_ghost()), this->ghosts.owner,
+            Precision::pairs_once};
+  }
+
   /// View of record `index`, with the constants of the group, in all lanes.
   template <class T>
   [[nodiscard, gnu::always_inline]] auto spread(std::size_t index) const noexcept {
@@ -98,14 +115,24 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
     spread_fields<T>(typename Layout::constants{}, view, constants);
     return view;
   }
-  /// Views of the records index[0 .. width - 1], with the constants of the group.
-  [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
-    using Lanes = Pack<double, Records::width>;
-    View<Dim, Lanes, typename Layout::seen> view;
-    copy_fields(typename Layout::record{}, view, records.gather(index));
-    spread_fields<Lanes>(typename Layout::constants{}, view, constants);
-    return view;
-  }
+  /// To be read by loops: views of the records index[0 .. width - 1], with the constants of the group.
+  struct Reader {
+    typename Records::Reader records;
+    View<Dim, double, typename Layout::constants> constants;
+
+    [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
+      using Lanes = typename Records::Lanes;
+      View<Dim, Lanes, typename Layout::seen> view;
+      copy_fields(typename Layout::record{}, view, records.gather(index));
+      spread_fields<Lanes>(typename Layout::constants{}, view, constants);
+      return view;
+    }
+    template <class Position>
+    [[nodiscard, gnu::always_inline]] Position separation(const Position& i, const Position& j) const noexcept {
+      return records.separation(i, j);
+    }
+  };
+  [[nodiscard]] Reader reader() const noexcept { return {records.reader(), constants}; }
 
   std::string name;
   Mobility mobility;
@@ -115,7 +142,8 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
   std::vector<std::uint32_t> id;
   View<Dim, double, typename Layout::constants> constants;
   Records records;
-  Ranges ranges;              ///< division of the particles among the threads
+  Sums sums;                  ///< what pairs within a block say of the partner further down, while a block is swept
+  Blocks blocks;              ///< of the particles, and their division among the threads
   bool may_be_sorted = true;  ///< bonds hold rows, so bonded groups keep their order
 };
 

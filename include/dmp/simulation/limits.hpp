@@ -22,31 +22,45 @@ template <class Integrator, class Engine, class G>
                          .damping_limit = Integrator::damping_limit,
                          .state_damping_limit = Integrator::state_damping_limit};
   if constexpr (particles::is_mobile<typename G::Mobility>) state.mass = g.mass;
-  for (std::size_t i = 0; i < g.size(); ++i) {
-    const auto particle = engine.prepared(g, i, 0.0);
-    state.speed = std::max(state.speed, dot(particle.velocity, particle.velocity));
-    if constexpr (particles::is_mobile<typename G::Mobility>)
-      state.acceleration = std::max(state.acceleration, g.template get<field::Acceleration>()[i].squaredNorm());
-    if constexpr (requires {
-                    particle.dynamic_viscosity;
-                    particle.density;
-                  })
-      state.kinematic_viscosity = std::max(state.kinematic_viscosity, particle.dynamic_viscosity / particle.density);
-    engine.for_each_item([&](const auto& active) {
-      using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_material<I>)
-        if constexpr (I::template concerns<typename std::remove_cvref_t<G>::Tag>)
-          std::apply(
-              [&](const auto&... law) {
-                const auto one = [&](const auto& l) {
-                  if constexpr (requires { l.sound_speed(particle); })
-                    state.sound_speed = std::max(state.sound_speed, l.sound_speed(particle));
-                };
-                (one(law), ...);
-              },
-              active.item.laws);
-    });
-  }
+  const auto largest = [](sweep::StepState a, const sweep::StepState& b) {
+    a.speed = std::max(a.speed, b.speed);
+    a.acceleration = std::max(a.acceleration, b.acceleration);
+    a.sound_speed = std::max(a.sound_speed, b.sound_speed);
+    a.kinematic_viscosity = std::max(a.kinematic_viscosity, b.kinematic_viscosity);
+    return a;
+  };
+  state = merge_ranges(
+      g.blocks.ranges(), state,
+      [&](std::size_t first, std::size_t last) {
+        sweep::StepState part;
+        for (std::size_t i = first; i < last; ++i) {
+          const auto particle = engine.prepared(g, i, 0.0);
+          part.speed = std::max(part.speed, dot(particle.velocity, particle.velocity));
+          if constexpr (particles::is_mobile<typename G::Mobility>)
+            part.acceleration = std::max(part.acceleration, g.template get<field::Acceleration>()[i].squaredNorm());
+          if constexpr (requires {
+                          particle.dynamic_viscosity;
+                          particle.density;
+                        })
+            part.kinematic_viscosity = std::max(part.kinematic_viscosity, particle.dynamic_viscosity / particle.density);
+          engine.for_each_item([&](const auto& active) {
+            using I = std::remove_cvref_t<decltype(active.item)>;
+            if constexpr (is_material<I>)
+              if constexpr (I::template concerns<typename std::remove_cvref_t<G>::Tag>)
+                std::apply(
+                    [&](const auto&... law) {
+                      const auto one = [&](const auto& l) {
+                        if constexpr (requires { l.sound_speed(particle); })
+                          part.sound_speed = std::max(part.sound_speed, l.sound_speed(particle));
+                      };
+                      (one(law), ...);
+                    },
+                    active.item.laws);
+          });
+        }
+        return part;
+      },
+      largest);
   state.speed = std::sqrt(state.speed);
   state.acceleration = std::sqrt(state.acceleration);
   return state;
@@ -73,7 +87,7 @@ void limit_group(const Engine& engine, const G& g, BondKind kind, sweep::StepLim
           stiffness.resize(g.size(), 0.0);
           dashpot.resize(g.size(), 0.0);
           for (std::size_t i = 0; i < g.size(); ++i) {
-            const double bonds = static_cast<double>(list.partners(i).size()) * per_mass;
+            const double bonds = list.sum_of_weights(i) * per_mass;
             stiffness[i] += active.item.law.largest_stiffness() * bonds;
             dashpot[i] += damping * bonds;
           }

@@ -12,6 +12,8 @@
 #include <dmp/geometry/box.hpp>
 #include <dmp/neighbours/exclusions.hpp>
 #include <dmp/neighbours/pair_list.hpp>
+#include <dmp/neighbours/relative_motion.hpp>
+#include <dmp/neighbours/spatial_order.hpp>
 #include <dmp/simulation/composition.hpp>
 #include <dmp/simulation/group.hpp>
 #include <dmp/sweep/gather.hpp>
@@ -44,11 +46,11 @@ using IsGroup = std::bool_constant<is_group<Item>>;
 template <class Item>
 using IsNotGroup = std::bool_constant<!is_group<Item>>;
 
-template <class List, bool KeepsRates, class... Item>
+template <class List, bool KeepsRates, class Precision, class... Item>
 struct Groups;
-template <class... G, bool KeepsRates, class... Item>
-struct Groups<std::tuple<G...>, KeepsRates, Item...> {
-  using type = std::tuple<Group<G, Composition<G, KeepsRates, Item...>>...>;
+template <class... G, bool KeepsRates, class Precision, class... Item>
+struct Groups<std::tuple<G...>, KeepsRates, Precision, Item...> {
+  using type = std::tuple<Group<G, Composition<G, KeepsRates, Item...>, Precision>...>;
 };
 template <class List>
 struct Actives;
@@ -110,11 +112,13 @@ consteval bool fits_dimension() {
 }  // namespace detail
 
 /// The groups and items of a scene, and who is near whom. Knows no law's formula, no time and no integrator.
-template <int Dim, bool KeepsRates, class... Item>
+template <int Dim, bool KeepsRates, class Precision, class... Item>
 class Model {
  public:
-  using Groups = typename detail::Groups<detail::filter<detail::IsGroup, Item...>, KeepsRates, Item...>::type;
+  using Groups = typename detail::Groups<detail::filter<detail::IsGroup, Item...>, KeepsRates, Precision, Item...>::type;
   static constexpr bool has_pairs = (is_interaction<Item> || ...);
+  static_assert(std::is_same_v<typename Precision::Real, double> || !(is_bonds<Item> || ...),
+                "dmp: bond laws are evaluated in double only: a scene with bonds needs precision::Double");
   static_assert(detail::all_different<detail::filter<detail::IsGroup, Item...>>, "dmp: two groups of the scene have the same tag");
   static_assert((detail::names_groups<detail::filter<detail::IsGroup, Item...>, Item> && ...),
                 "dmp: an item of the scene names a group that the scene does not hold");
@@ -134,7 +138,7 @@ class Model {
       if constexpr (is_bonds<I>) prepare_bonds(active);
       if constexpr (is_material<I>) set_constants(active.item);
     });
-    skin_ = 0.1 * longest_cutoff_;
+    skin_ = 0.2 * longest_cutoff_;  // least time of a step, see docs/performance.md
     prepare_exclusions();
   }
 
@@ -185,7 +189,7 @@ class Model {
   void set_skin(double skin) noexcept { skin_ = skin; }
 
  protected:
-  using Lanes = sweep::Lanes;
+  using Lanes = Pack<typename Precision::Real, native_width<typename Precision::Real>>;
   template <class G>
   using LayoutOf = typename std::remove_cvref_t<G>::Layout;
   template <class G>
@@ -205,9 +209,10 @@ class Model {
     return found;
   }
 
-  /// Wraps positions into the periodic box, sorts the particles in space, finds ghosts and neighbours.
-  void find_neighbours() {
-    for_each_group([&](auto& g) { settle(g); });
+  /// Wraps positions into the periodic box, finds ghosts and neighbours; every so often, or if `sort`, sorts the particles in space first.
+  void find_neighbours(bool sort) {
+    builds_since_sort_ = sort || builds_since_sort_ + 1 >= builds_per_sort ? 0 : builds_since_sort_ + 1;
+    for_each_group([&](auto& g) { settle(g, builds_since_sort_ == 0); });
     if constexpr (has_pairs) {
       for_each_group([&](auto& g) { prepare_sources(g); });
       for_each_item([&](auto& active) {
@@ -215,18 +220,29 @@ class Model {
         if constexpr (is_interaction<I>) {
           auto& a = group<typename I::A>();
           auto& b = group<typename I::B>();
-          const double radius = active.item.cutoff() + skin_;
-          list(a, b, active.of_a, active.excluded_of_a, radius);
-          if constexpr (!std::is_same_v<typename I::A, typename I::B>) list(b, a, active.of_b, active.excluded_of_b, radius);
+          const double cutoff = active.item.cutoff();
+          list(a, b, active.of_a, active.excluded_of_a, cutoff);
+          if constexpr (!std::is_same_v<typename I::A, typename I::B>) list(b, a, active.of_b, active.excluded_of_b, cutoff);
         }
       });
     }
+    for_each_item([&](auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_bonds<I>) {
+        auto& a = group<typename I::A>();
+        auto& b = group<typename I::B>();
+        mark_crossing(active.of_a, a, b);
+        mark_crossing(active.of_b, b, a);
+      }
+    });
+    for_each_group([&](auto& g) { divide(g); });
+    if constexpr (has_pairs) follow_from_here();
     ++list_builds_;
   }
 
   geometry::Box<Dim> box_;
-  sweep::Periods<Dim> periods_{};                          // lengths of the periodic directions, 0 for the others
-  std::array<double, std::tuple_size_v<Groups>> moved_{};  // largest displacement of each group since the lists were built
+  std::array<double, Dim> periods_{};                          // lengths of the periodic directions, 0 for the others
+  neighbours::RelativeMotion<Dim> relative_motion_;  // since the lists were built
   double longest_cutoff_ = 0.0, skin_ = 0.0;
 
  private:
@@ -237,7 +253,7 @@ class Model {
     else return std::tuple<>();
   }
   static Groups make_groups(const auto& items) {
-    return std::apply([]<class... G>(const G&... item) { return Groups{Group<G, Composition<G, KeepsRates, Item...>>(item)...}; }, items);
+    return std::apply([]<class... G>(const G&... item) { return Groups{Group<G, Composition<G, KeepsRates, Item...>, Precision>(item)...}; }, items);
   }
   static Items make_items(const auto& items) {
     return std::apply([]<class... I>(const I&... item) { return Items{detail::Active<I>{item}...}; }, items);
@@ -249,8 +265,8 @@ class Model {
     auto& b = group<typename I::B>();
     constexpr bool same = std::is_same_v<typename I::A, typename I::B>;
     neighbours::complete_bonds<Dim>(active.item.bonds, a.positions(), b.positions(), same, box_, same ? a.name : a.name + " and " + b.name);
-    if constexpr (mobile<decltype(a)>) active.of_a.build(a.size(), active.item.bonds, same, false, Lanes::width);
-    if constexpr (mobile<decltype(b)> && !same) active.of_b.build(b.size(), active.item.bonds, false, true, Lanes::width);
+    if constexpr (mobile<decltype(a)>) active.of_a.build(a.blocks, active.item.bonds, same, false, Lanes::width);
+    if constexpr (mobile<decltype(b)> && !same) active.of_b.build(b.blocks, active.item.bonds, false, true, Lanes::width);
     a.may_be_sorted = b.may_be_sorted = false;
   }
 
@@ -306,22 +322,23 @@ class Model {
   }
 
   template <class G>
-  void settle(G& g) {  // positions into the box, particles into spatial order
-    for (auto& x : g.positions()) x = box_.wrap(x);
-    if constexpr (G::Mobility::moves) {
-      if constexpr (LayoutOf<G>::has_pairs) {
-        if (g.may_be_sorted && longest_cutoff_ > 0.0) {
-          g.grid.build(g.positions(), 0.5 * (longest_cutoff_ + skin_));
-          g.columns.permute(g.grid.order());
-          permuted_id_.resize(g.size());
-          for (std::size_t k = 0; k < g.size(); ++k) permuted_id_[k] = g.id[g.grid.order()[k]];
-          g.id.swap(permuted_id_);
-        }
+  void settle(G& g, bool sort) {  // positions into the box, particles into spatial order
+    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) g.positions()[i] = box_.wrap(g.positions()[i]);
+    });
+    if constexpr (LayoutOf<G>::has_pairs) {
+      if (G::Mobility::moves && sort && g.may_be_sorted) {
+        const double cell = 0.5 * (longest_cutoff_ + skin_);
+        order_.build(g.positions(), cell, g.spacing > 0.0 ? std::pow(cell / g.spacing, Dim) : 0.0);
+        g.blocks.set_bounds(order_.bounds());
+        if (g.records.size() < g.size()) g.records.resize(g.size());  // records are packed anew after this: their memory is free
+        static_assert(G::Records::bytes_per_particle() >= Dim * sizeof(double));
+        g.columns.permute(order_.rows(), g.blocks.ranges(), reinterpret_cast<double*>(g.records.data()));
+        auto* const id = reinterpret_cast<std::uint32_t*>(g.records.data());
+        std::copy(g.id.begin(), g.id.end(), id);
+        for (std::size_t k = 0; k < g.size(); ++k) g.id[k] = id[order_.rows()[k]];
       }
     }
-    g.ranges = Ranges(g.size());
-    if constexpr (LayoutOf<G>::has_pairs) g.at_list_build = g.positions();
-    moved_[index_of<typename G::Tag>()] = 0.0;
   }
 
   template <class G>
@@ -333,25 +350,92 @@ class Model {
           throw ParameterError("scene: a periodic box must be longer than support radius and skin (" + to_text(reach) + " m), got " +
                                to_text(period));
       g.ghosts.build(g.positions(), box_, reach);
-      all_positions_.assign(g.positions().begin(), g.positions().end());
-      for (std::size_t k = 0; k < g.ghosts.size(); ++k) all_positions_.push_back(g.positions()[g.ghosts.owner[k]] + g.ghosts.shift[k]);
-      g.grid.build(all_positions_, 0.5 * reach);
+      g.grid.build(
+          g.size() + g.ghosts.size(),
+          [&g](std::size_t k) -> Vector<Dim> {
+            if (k < g.size()) return g.positions()[k];
+            return g.positions()[g.ghosts.owner[k - g.size()]] + g.ghosts.shift[k - g.size()];
+          },
+          0.5 * reach);
     }
   }
 
   template <class A, class B>
-  void list(const A& of, const B& sources, neighbours::PairList& pairs, const neighbours::Exclusions& excluded, double radius) {
+  void list(const A& of, const B& sources, neighbours::PairList& pairs, const neighbours::Exclusions& excluded, double cutoff) {
     if constexpr (evolves<A>)
-      pairs.template build<Dim>(of.ranges, of.positions(), sources.grid, radius,
-                                {std::is_same_v<A, B>, static_cast<std::uint32_t>(sources.size()), sources.ghosts.owner}, excluded,
+      pairs.template build<Dim>(of.blocks, of.positions(), sources.grid, cutoff, skin_, sources.sources(std::is_same_v<A, B>), excluded,
                                 Lanes::width);
+  }
+
+  template <class A, class B>
+  void mark_crossing(neighbours::BondList& bonds, const A& own, const B& partners) {
+    if (bonds.empty() || std::find(box_.periodic.begin(), box_.periodic.end(), true) == box_.periodic.end()) return;
+    bonds.template mark_crossing<Dim>(own.positions(), partners.positions(), box_);
+  }
+
+  /// Shares the blocks of a group among the threads by what a sweep over them costs: entries of lists, and about ten more per particle.
+  template <class G>
+  void divide(G& g) {
+    if constexpr (evolves<G>)
+      g.blocks.divide([&](std::size_t block) {
+        double cost = 10.0 * static_cast<double>(g.blocks.end(block) - g.blocks.begin(block));
+        for_each_item([&](const auto& active) {
+          using I = std::remove_cvref_t<decltype(active.item)>;
+          if constexpr (is_interaction<I> || is_bonds<I>) {
+            if constexpr (std::is_same_v<typename G::Tag, typename I::A>) cost += active.of_a.entries(g.blocks, block);
+            else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) cost += active.of_b.entries(g.blocks, block);
+          }
+        });
+        return cost;
+      });
+  }
+
+  /// The present positions are what relative motion is counted from.
+  void follow_from_here() {
+    neighbours::Bounds<Dim> bounds;
+    for_each_group([&](auto& g) {
+      if constexpr (LayoutOf<decltype(g)>::has_pairs)
+        bounds.add(merge_ranges(
+            g.blocks.ranges(), neighbours::Bounds<Dim>{},
+            [&g](std::size_t first, std::size_t last) {
+              neighbours::Bounds<Dim> part;
+              for (std::size_t i = first; i < last; ++i) part.add(g.positions()[i]);
+              return part;
+            },
+            [](neighbours::Bounds<Dim> a, const neighbours::Bounds<Dim>& b) {
+              a.add(b);
+              return a;
+            }));
+    });
+    const double reach = longest_cutoff_ + skin_;
+    relative_motion_.build(bounds, box_, reach);
+    const double extent = 2.0 * ((bounds.upper - bounds.lower).maxCoeff() + 4.0 * reach);  // room for ghosts, and for moving along
+    for_each_group([&](auto& g) { g.records.set_frame({0.5 * (bounds.lower + bounds.upper), extent}); });
+    for_each_group([&](auto& g) {
+      using G = std::remove_cvref_t<decltype(g)>;
+      if constexpr (LayoutOf<G>::has_pairs) {
+        if constexpr (G::Mobility::moves) g.at_list_build = g.positions();
+        g.runs.resize(g.blocks.ranges().size());
+        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t, std::size_t) {
+          auto& runs = g.runs[range];
+          runs.clear();
+          for (std::size_t block = g.blocks.first_block(range); block < g.blocks.first_block(range + 1); ++block)
+            for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i)
+              if (const std::uint32_t cell = relative_motion_.cell_of(g.positions()[i]);
+                  i == g.blocks.begin(block) || cell != runs.back().cell)
+                runs.push_back({static_cast<std::uint32_t>(i), cell});
+        });
+        g.level.assign(g.blocks.size(), 0);
+      }
+    });
   }
 
   Groups groups_;
   Items items_;
   std::uint64_t list_builds_ = 0;
-  std::vector<Vector<Dim>> all_positions_;
-  std::vector<std::uint32_t> permuted_id_;
+  static constexpr int builds_per_sort = 8;  // the order ages far more slowly than the lists
+  int builds_since_sort_ = 0;
+  neighbours::SpatialOrder<Dim> order_;
 };
 
 }  // namespace dmp::simulation

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -38,7 +39,7 @@ struct RunReport {
 };
 
 /// A composed simulation: groups, what they do to each other, an integrator, and what looks on. Made by `scene(...)`.
-template <int Dim, class Integrator, class... Item>
+template <int Dim, class Integrator, class Precision, class... Item>
 class Scene {
  public:
   static constexpr int dimension = Dim;
@@ -53,8 +54,8 @@ class Scene {
   [[nodiscard]] const auto& group() const noexcept {
     return engine_.template group<Tag>();
   }
-  [[nodiscard]] Engine<Dim, Integrator, Item...>& engine() noexcept { return engine_; }
-  [[nodiscard]] const Engine<Dim, Integrator, Item...>& engine() const noexcept { return engine_; }
+  [[nodiscard]] Engine<Dim, Integrator, Precision, Item...>& engine() noexcept { return engine_; }
+  [[nodiscard]] const Engine<Dim, Integrator, Precision, Item...>& engine() const noexcept { return engine_; }
   [[nodiscard]] double time() const noexcept { return clock_.time; }         ///< [s]
   [[nodiscard]] std::uint64_t step() const noexcept { return clock_.step; }  ///< since the very start, restarts included
   [[nodiscard]] std::size_t particles() const {
@@ -63,11 +64,11 @@ class Scene {
     return count;
   }
 
-  /// Margin [m] by which neighbour lists reach beyond the cut-off, so that they last several steps; 0.1 of the largest cut-off unless set.
+  /// Margin [m] by which neighbour lists reach beyond the cut-off, so that they last several steps; 0.2 of the largest cut-off unless set.
   Scene& set_skin(double skin) {
     require_not_negative("scene: skin", skin, "m");
     engine_.set_skin(skin);
-    if (prepared_) engine_.build_lists();
+    if (prepared_) engine_.build_lists(true);
     return *this;
   }
   /// Calls observer(scene) at the start of the run and then every `interval` [s], at the step nearest to each multiple.
@@ -119,29 +120,43 @@ class Scene {
       take_snapshot();
       Progress bar(shows_progress_, clock_.time, options.until);
       observe();
-      while (clock_.time < options.until - 0.5 * clock_.time_step) {
-        if (options.time_step == 0.0 && clock_.step % 10 == 0) {
-          const auto limit = find_step_limit<Integrator>(engine_, has_substeps);
-          if (limit.time_step < report.limit.time_step) report.limit = limit;
-          choose_step(options.safety * limit.time_step);
-          if (!(clock_.time_step > 1e-6 * first_step))
-            throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")",
-                                  {clock_.time, clock_.step, "", -1, "time_step", clock_.time_step});
+      const auto goes_further = [&] { return clock_.time < options.until - 0.5 * clock_.time_step; };
+      bool begun = false, worn = false;
+      while (begun || goes_further()) {
+        if (!begun) {
+          if (options.time_step == 0.0 && clock_.step % 10 == 0) {
+            const auto limit = find_step_limit<Integrator>(engine_, has_substeps);
+            if (limit.time_step < report.limit.time_step) report.limit = limit;
+            choose_step(options.safety * limit.time_step);
+            if (!(clock_.time_step > 1e-6 * first_step))
+              throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")",
+                                    {clock_.time, clock_.step, "", -1, "time_step", clock_.time_step});
+          }
+          clock_.tick();
+          worn = engine_.begin_step(clock_.time_step, clock_.time);
         }
-        clock_.tick();
-        if (engine_.begin_step(clock_.time_step, clock_.time)) {
+        if (worn) {
           check();
-          engine_.build_lists();
+          engine_.build_lists(false);
         }
-        engine_.finish_step(clock_.time_step, clock_.time);
-        if (clock_.step % options.check_every == 0) {
+        engine_.forces(clock_.time_step, clock_.time, worn);
+        ++report.steps;
+        // Where nobody looks at the state between two steps, the end of one and the beginning of the next are one pass.
+        const bool checks = clock_.step % options.check_every == 0, chooses = options.time_step == 0.0 && clock_.step % 10 == 0;
+        begun = !checks && !chooses && !observes() && goes_further();
+        if (begun) {
+          clock_.tick();
+          worn = engine_.go_on(clock_.time_step, clock_.time_step, clock_.time);
+          continue;
+        }
+        engine_.end_step(clock_.time_step);
+        if (checks) {
           check();
           take_snapshot();
           if (options.time_step > 0.0) check_step(report.limit);
         }
         observe();
         bar.show(clock_.time);
-        ++report.steps;
       }
       check();
       report.time_step = clock_.time_step;
@@ -165,23 +180,23 @@ class Scene {
   /// Writes everything that a bit-exact continuation needs. Also rebuilds the lists, so that this run and the restarted one go on alike.
   void checkpoint(const std::string& path) {
     prepare();
-    engine_.build_lists();
+    engine_.build_lists(true);
     write_checkpoint(path, signature(), views(), clock_);
   }
   /// Continues from a checkpoint of the same composition and the same particle numbers.
   void restart(const std::string& path) {
     clock_ = read_checkpoint(path, signature(), views());
     for (auto& observer : observers_) observer.done = due(observer);
-    engine_.build_lists();
+    engine_.build_lists(true);
     if constexpr (has_substeps)
       if (clock_.time_step > 0.0) engine_.set_substeps(substeps_for<Integrator>(engine_, clock_.time_step));
     prepared_ = true;
   }
-  /// What a checkpoint must agree with: dimension, integrator, groups, mobilities, columns.
-  [[nodiscard]] std::string signature() { return simulation::signature(Dim, Integrator::name, views()); }
+  /// What a checkpoint must agree with: dimension, integrator, precision, groups, mobilities, columns.
+  [[nodiscard]] std::string signature() { return simulation::signature(Dim, std::string(Integrator::name) + ", " + std::string(Precision::name), views()); }
 
  private:
-  static constexpr bool has_substeps = Engine<Dim, Integrator, Item...>::has_substeps;
+  static constexpr bool has_substeps = Engine<Dim, Integrator, Precision, Item...>::has_substeps;
   struct Observer {
     double interval;
     std::function<void(Scene&)> call;
@@ -203,6 +218,12 @@ class Scene {
   /// Multiples of the observer's interval that have passed.
   [[nodiscard]] std::int64_t due(const Observer& observer) const {
     return static_cast<std::int64_t>(std::floor((clock_.time + 0.5 * clock_.time_step) / observer.interval));
+  }
+  /// Whether an observer wants to see the present state.
+  [[nodiscard]] bool observes() const {
+    for (const auto& observer : observers_)
+      if (due(observer) > observer.done) return true;
+    return false;
   }
   void observe() {
     for (auto& observer : observers_) {
@@ -228,17 +249,18 @@ class Scene {
   void reject_overlap(const A& a, const B& b, const neighbours::PairList& pairs) const {
     const double least = 0.5 * std::min(a.spacing, b.spacing);
     if constexpr (A::Mobility::evolves)
-      for (std::size_t range = 0; range < a.ranges.size(); ++range)
-        for (std::size_t i = a.ranges.begin(range); i < a.ranges.end(range); ++i)
-          for (const std::uint32_t j : pairs.of(range, i)) {
-            if (j >= b.size() + b.ghost_count()) continue;  // fills up the pack
-            const std::size_t row = j < b.size() ? j : b.ghosts.owner[j - b.size()];
-            const double distance = neighbours::minimum_image<Dim>(a.positions()[i] - b.positions()[row], engine_.box()).norm();
+      for (std::size_t block = 0; block < a.blocks.size(); ++block)
+        for (std::size_t i = a.blocks.begin(block); i < a.blocks.end(block); ++i) {
+          for (const std::uint32_t row : pairs.of(block, i)) {
+            if (row >= b.size() && row < b.first_ghost()) continue;  // fills up the pack
+            const std::size_t j = b.sources(false).original(row);
+            const double distance = neighbours::minimum_image<Dim>(a.positions()[i] - b.positions()[j], engine_.box()).norm();
             if (distance < least)
               throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " +
-                                   b.name + " " + std::to_string(b.id[row]) + " must be >= " + to_text(least) + " m apart, got " +
+                                   b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
                                    to_text(distance));
           }
+        }
   }
 
   // ---- checks and rescue ----------------------------------------------------------------------------------------------------
@@ -320,7 +342,7 @@ class Scene {
     }
   }
 
-  Engine<Dim, Integrator, Item...> engine_;
+  Engine<Dim, Integrator, Precision, Item...> engine_;
   std::vector<Observer> observers_;
   std::string rescue_path_;
   Snapshot last_good_;
@@ -330,9 +352,10 @@ class Scene {
 
 /// Composes a scene: a box, then groups, interactions, bonds, materials and forcings in any order.
 ///   auto flow = scene<integrator::ExtrapolatedVerlet>(box, group<Water>(...), interaction<Water, Water>(...), ...);
-template <class Integrator, int Dim, class... Item>
+/// Pair laws are evaluated in a precision::Double unless another Precision is named: scene<integrator::ExtrapolatedVerlet, precision::Single>(...).
+template <class Integrator, class Precision = precision::Double, int Dim, class... Item>
 [[nodiscard]] auto scene(const geometry::Box<Dim>& box, const Item&... item) {
-  return Scene<Dim, Integrator, Item...>(box, item...);
+  return Scene<Dim, Integrator, Precision, Item...>(box, item...);
 }
 
 }  // namespace dmp::simulation

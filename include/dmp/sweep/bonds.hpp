@@ -1,0 +1,123 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <dmp/bond/concept.hpp>
+#include <dmp/core/components.hpp>
+#include <dmp/core/math.hpp>
+#include <dmp/core/pack.hpp>
+#include <dmp/neighbours/bond_list.hpp>
+#include <dmp/sweep/gather.hpp>
+
+namespace dmp::sweep {
+
+/// A vector of one particle in whole registers, one component per lane; lanes beyond the last component are zero.
+template <int Dim>
+struct Row {
+  static constexpr int registers = (Dim + Lanes::width - 1) / Lanes::width;
+  Lanes part[registers];
+
+  [[nodiscard, gnu::always_inline]] static Row load(const double* from) noexcept {
+    Row row;
+    unrolled<registers>([&](auto r) __attribute__((always_inline)) { row.part[r] = Lanes::load(from + r * Lanes::width); });
+    return row;
+  }
+  [[gnu::always_inline]] void store(double* to) const noexcept {
+    unrolled<registers>([&](auto r) __attribute__((always_inline)) { part[r].store(to + r * Lanes::width); });
+  }
+  /// The vector alone: zero in the lanes beyond.
+  [[nodiscard, gnu::always_inline]] Row alone() const noexcept {
+    Row row = *this;
+    if constexpr (Dim % Lanes::width != 0) {
+      Lanes within(0.0);
+      unrolled<Lanes::width>([&](auto lane) __attribute__((always_inline)) {
+        if constexpr ((registers - 1) * Lanes::width + lane < Dim) within.raw[static_cast<int>(lane)] = 1.0;
+      });
+      row.part[registers - 1] = select(within > 0.0, part[registers - 1], 0.0);
+    }
+    return row;
+  }
+  /// this + factor * b
+  [[nodiscard, gnu::always_inline]] Row plus(Lanes factor, const Row& b) const noexcept {
+    Row row;
+    unrolled<registers>([&](auto r) __attribute__((always_inline)) { row.part[r] = part[r] + factor * b.part[r]; });
+    return row;
+  }
+  [[nodiscard, gnu::always_inline]] friend Lanes products(const Row& a, const Row& b) noexcept {  // to be summed over the lanes
+    Lanes sum = a.part[0] * b.part[0];
+    unrolled<registers - 1>([&](auto r) __attribute__((always_inline)) { sum += a.part[r + 1] * b.part[r + 1]; });
+    return sum;
+  }
+  [[nodiscard, gnu::always_inline]] friend Row operator-(const Row& a, const Row& b) noexcept { return a.plus(-1.0, b); }
+};
+
+/// Lengths of the periodic directions and their inverses, 0 for the others, for whole registers.
+template <int Dim>
+class Periods {
+ public:
+  Periods() = default;
+  explicit Periods(const std::array<double, Dim>& lengths) {
+    for (std::size_t d = 0; d < Dim; ++d) {
+      length_[d] = lengths[d];
+      inverse_[d] = lengths[d] > 0.0 ? 1.0 / lengths[d] : 0.0;
+    }
+  }
+  [[nodiscard, gnu::always_inline]] Row<Dim> length() const noexcept { return Row<Dim>::load(length_.data()); }
+  [[nodiscard, gnu::always_inline]] Row<Dim> inverse() const noexcept { return Row<Dim>::load(inverse_.data()); }
+
+ private:
+  std::array<double, Row<Dim>::registers * Lanes::width> length_{}, inverse_{};
+};
+
+/// Records in which bond laws look: position first, then the velocity if they read it.
+struct BondRecords {
+  const double* own;       ///< of the particle
+  const double* partners;  ///< of the group at the other ends
+  int stride;              ///< doubles from one of these to the next
+};
+
+/// Force [N] of its bonds on a particle. Entries with a negative rest length are none; a bond of length zero has no direction and exerts no
+/// force. `react(row, factor, vector)` adds the reaction factor * vector [N] to a row. Lanes are components while vectors are at work, and
+/// bonds while the law is asked.
+template <int Dim, bool Periodic, class React, class Law>
+[[nodiscard, gnu::always_inline]] inline Row<Dim> sum_bonds(const BondRecords records, const neighbours::BondList::Entries bonds,
+                                                            [[maybe_unused]] const Periods<Dim>& periods, const React react,
+                                                            const Law law) noexcept {
+  constexpr int width = Lanes::width;
+  constexpr bool with_velocity = bond::UsesVelocity<Law>;
+  const auto own_position = Row<Dim>::load(records.own);
+  [[maybe_unused]] const auto own_velocity = with_velocity ? Row<Dim>::load(records.own + Dim) : own_position;
+  [[maybe_unused]] const auto period = periods.length(), per_period = periods.inverse();
+  Row<Dim> force;
+  unrolled<Row<Dim>::registers>([&](auto r) __attribute__((always_inline)) { force.part[r] = 0.0; });
+  for (std::size_t k = 0; k < bonds.size; k += width) {
+    Row<Dim> separation[width];
+    Lanes squares[width], approaches[width];
+    unrolled<width>([&](auto lane) __attribute__((always_inline)) {
+      const double* const partner = records.partners + static_cast<std::size_t>(bonds.partner[k + lane]) * static_cast<unsigned>(records.stride);
+      auto& apart = separation[lane];
+      apart = (own_position - Row<Dim>::load(partner)).alone();
+      if constexpr (Periodic)
+        unrolled<Row<Dim>::registers>([&](auto r) __attribute__((always_inline)) {
+          apart.part[r] = apart.part[r] - period.part[r] * nearest_whole(apart.part[r] * per_period.part[r]);
+        });
+      squares[lane] = products(apart, apart);
+      if constexpr (with_velocity) approaches[lane] = products(apart, (own_velocity - Row<Dim>::load(partner + Dim)).alone());
+    });
+    const Lanes rest_length = Lanes::load(bonds.rest_length + k), length_squared = sum_across(squares), length = sqrt(length_squared);
+    const Lanes inverse = length * (1.0 / length_squared);  // the division need not wait for the root
+    Lanes tension;
+    if constexpr (with_velocity) tension = law.tension(bond::MovingStretch<Lanes>{{length, rest_length}, inverse * sum_across(approaches)});
+    else tension = law.tension(bond::Stretch<Lanes>{length, rest_length});
+    const Lanes weight = Lanes::load(bonds.weight + k * bonds.weight_step);
+    const Lanes pull = select(rest_length >= 0.0 && length_squared > 0.0, tension * (inverse * weight), 0.0);
+    unrolled<width>([&](auto lane) __attribute__((always_inline)) {
+      const Lanes pull_of_one = spread_lane<lane>(pull);
+      force = force.plus(-pull_of_one, separation[lane]);
+      react(bonds.reaction[k + lane], pull_of_one, separation[lane]);
+    });
+  }
+  return force;
+}
+
+}  // namespace dmp::sweep

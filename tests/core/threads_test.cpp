@@ -1,0 +1,150 @@
+#include <cstddef>
+#include <mutex>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+#include "support/threads.hpp"
+#include <doctest/doctest.h>
+#include <dmp/core/threads.hpp>
+
+using dmp::Blocks;
+using dmp::Ranges;
+
+namespace {
+
+/// How often each of `count` rows is visited by for_each_block and by for_each_range; and whether the two agree on the range of a row.
+struct Visits {
+  std::vector<int> by_block, by_range;
+  bool agree = true;
+
+  Visits(const Blocks& blocks, std::size_t count) : by_block(count, 0), by_range(count, 0) {
+    std::vector<std::size_t> range_of(count, 0);
+    std::mutex one_at_a_time;
+    dmp::for_each_range(blocks.ranges(), [&](std::size_t range, std::size_t first, std::size_t last) {
+      const std::lock_guard lock(one_at_a_time);
+      for (std::size_t row = first; row < last; ++row) ++by_range.at(row), range_of.at(row) = range;
+    });
+    dmp::for_each_block(blocks, [&](std::size_t range, std::size_t block) {
+      const std::lock_guard lock(one_at_a_time);
+      for (std::size_t row = blocks.begin(block); row < blocks.end(block); ++row) ++by_block.at(row), agree = agree && range_of.at(row) == range;
+    });
+  }
+  [[nodiscard]] bool once_each() const { return by_block == std::vector<int>(by_block.size(), 1) && by_range == by_block; }
+};
+
+Blocks of_bounds(const std::vector<std::size_t>& bounds) {
+  Blocks blocks;
+  blocks.set_bounds(bounds);
+  return blocks;
+}
+
+std::vector<std::size_t> bounds_of(const Blocks& blocks) {
+  std::vector<std::size_t> bounds{blocks.begin(0)};
+  for (std::size_t block = 0; block < blocks.size(); ++block) bounds.push_back(blocks.end(block));
+  return bounds;
+}
+
+}  // namespace
+
+TEST_CASE("every row lies in one block and in one range, and a range holds whole blocks, for any number of rows and threads") {
+  for (const int threads : {1, 2, 3, 4}) {
+    const test::Threads use(threads);
+    for (const std::size_t count : {0u, 1u, 1023u, 2048u, 4096u, 8191u, 8192u, 20000u, 70001u, 200003u}) {
+      CAPTURE(threads);
+      CAPTURE(count);
+      const Blocks blocks(count);
+      const Visits visits(blocks, count);
+      CHECK(visits.once_each());
+      CHECK(visits.agree);
+      CHECK(blocks.ranges().size() <= static_cast<std::size_t>(threads));
+      CHECK(blocks.ranges().size() <= blocks.size());
+    }
+  }
+}
+
+TEST_CASE("blocks depend on the rows alone, not on the threads, and are equal: 4096 rows at least, 16 of them at most") {
+  for (const std::size_t count : {0u, 5u, 8191u, 8192u, 20000u, 70001u, 1000000u}) {
+    std::vector<std::size_t> first;
+    for (const int threads : {1, 2, 3, 4}) {
+      const test::Threads use(threads);
+      const Blocks blocks(count);
+      if (first.empty()) first = bounds_of(blocks);
+      CHECK(bounds_of(blocks) == first);
+    }
+    CHECK(first.front() == 0);
+    CHECK(first.back() == count);
+    CHECK(first.size() - 1 <= 16);
+    for (std::size_t block = 0; block + 1 < first.size(); ++block) {
+      const std::size_t rows = first[block + 1] - first[block];
+      CHECK((first.size() == 2 || rows >= 4096));
+      CHECK(rows + 1 >= count / (first.size() - 1));
+      CHECK(rows <= count / (first.size() - 1) + 1);
+    }
+  }
+  CHECK(Blocks(8191).size() == 1);
+  CHECK(Blocks(8192).size() == 2);
+  CHECK(Blocks(1000000).size() == 16);
+}
+
+TEST_CASE("bounds of the caller's are taken as they are") {
+  const test::Threads use(3);
+  const std::vector<std::size_t> bounds{0, 10, 3000, 3001, 9000};
+  const Blocks blocks = of_bounds(bounds);
+  CHECK(bounds_of(blocks) == bounds);
+  CHECK(Visits(blocks, 9000).once_each());
+  CHECK(blocks.ranges().size() == 3);
+}
+
+TEST_CASE("threads get about the same cost each: no more than one block off the mean, wherever the cost lies") {
+  constexpr std::size_t count = 40, rows = 200;
+  std::vector<std::size_t> bounds(count + 1);
+  for (std::size_t block = 0; block <= count; ++block) bounds[block] = rows * block;
+  const std::vector<double (*)(std::size_t)> costs{[](std::size_t) { return 1.0; }, [](std::size_t block) { return static_cast<double>(block); },
+                                                   [](std::size_t block) { return block < 4 ? 10.0 : 1.0; }, [](std::size_t block) { return block % 7 == 0 ? 5.0 : 0.0; }};
+  for (const int threads : {1, 2, 3, 4})
+    for (std::size_t k = 0; k < costs.size(); ++k) {
+      CAPTURE(threads);
+      CAPTURE(k);
+      const test::Threads use(threads);
+      Blocks blocks = of_bounds(bounds);
+      blocks.divide(costs[k]);
+      CHECK(bounds_of(blocks) == bounds);
+      REQUIRE(blocks.ranges().size() == static_cast<std::size_t>(threads));
+      CHECK(Visits(blocks, rows * count).once_each());
+      CHECK(Visits(blocks, rows * count).agree);
+      double total = 0.0, dearest = 0.0;
+      for (std::size_t block = 0; block < count; ++block) total += costs[k](block), dearest = std::max(dearest, costs[k](block));
+      for (std::size_t range = 0; range < blocks.ranges().size(); ++range) {
+        double cost = 0.0;
+        for (std::size_t block = blocks.first_block(range); block < blocks.first_block(range + 1); ++block) cost += costs[k](block);
+        CHECK(std::abs(cost - total / threads) <= dearest);
+      }
+    }
+}
+
+TEST_CASE("more threads than blocks, and blocks without cost, lose no row") {
+  const test::Threads use(4);
+  Blocks two = of_bounds({0, 5000, 10000});
+  CHECK(two.ranges().size() == 2);
+  for (const double first : {0.0, 1.0, 1e9}) {
+    two.divide([first](std::size_t block) { return block == 0 ? first : 1.0; });
+    CHECK(Visits(two, 10000).once_each());
+  }
+  two.divide([](std::size_t) { return 0.0; });
+  CHECK(Visits(two, 10000).once_each());
+}
+
+TEST_CASE("what a block throws is thrown on") {
+  const test::Threads use(2);
+  CHECK_THROWS_AS(dmp::for_each_block(Blocks(20000), [](std::size_t, std::size_t block) { if (block == 3) throw std::runtime_error("3"); }), std::runtime_error);
+}
+
+TEST_CASE("the largest over all ranges does not depend on the threads") {
+  for (const int threads : {1, 2, 3, 4}) {
+    const test::Threads use(threads);
+    const auto largest = dmp::merge_ranges(
+        Ranges(10000), 0.0, [](std::size_t first, std::size_t last) { double part = 0.0; for (std::size_t row = first; row < last; ++row) part = std::max(part, static_cast<double>(row * 7919 % 10007)); return part; },
+        [](double a, double b) { return std::max(a, b); });
+    CHECK(largest == 10006.0);
+  }
+}
