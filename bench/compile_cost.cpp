@@ -32,11 +32,9 @@ Cost measure(const std::string& command) {
     rusage usage{};
     wait4(child, &status, 0, &usage);
     cost.seconds = std::min(cost.seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    cost.mebibytes = static_cast<double>(usage.ru_maxrss) / 1024.0;  // of the largest process, the compiler proper
     cost.compiled = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
-  rusage all{};
-  getrusage(RUSAGE_CHILDREN, &all);
-  cost.mebibytes = static_cast<double>(all.ru_maxrss) / 1024.0;  // the largest so far: sources are ordered by size
   return cost;
 }
 
@@ -51,7 +49,7 @@ int main() {
   bool all_compiled = true;
   const auto report = [&](const std::string& what, const std::string& file) {
     const Cost cost = measure(compile + " -c " + file + " -o " + object);
-    std::printf("%-36s %6.2f s  %6.0f MiB at most so far\n", what.c_str(), cost.seconds, cost.mebibytes);
+    std::printf("%-36s %6.2f s  %6.0f MiB\n", what.c_str(), cost.seconds, cost.mebibytes);
     all_compiled = all_compiled && cost.compiled;
   };
   for (const char* header : {"dmp/kernel/lucy.hpp", "dmp/bond/harmonic.hpp", "dmp/dmp.hpp"}) {

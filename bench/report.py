@@ -1,0 +1,333 @@
+#!/usr/bin/env python3
+"""Runs the benchmarks in turn, several rounds of them, and prints Markdown tables: each bound with what was measured, where a step's
+time goes, and how it depends on the skin and on the number of particles.
+
+    cmake --preset release && cmake --build --preset release --target report
+
+Linux only. It takes some ten minutes and counts only on an idle machine. A ratio is taken within each round; printed are the median over
+the rounds and, in brackets, the least and the largest. Sweeps are timed as the yardstick does it, the best of 7. Steps are means over 40
+and more of them: processor time where one thread is at work, else time on the clock; how threads speed it up is all time on the clock.
+The yardstick is a program apart, of plain and of hand-vectorised loops; what refers to it is left out without it.
+"""
+import argparse
+import csv
+import json
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic
+
+THREADS = (2, 4)
+SKINS = (50, 100, 150, 200, 300)  # thousandths of the support
+SIDES = (22, 50, 100)
+LARGE_SIDE = 160
+LAW_HEADERS = ("dmp/kernel/lucy.hpp", "dmp/bond/harmonic.hpp")  # the slower one counts
+
+
+class Failure(Exception):
+    """A text for the user: what went wrong, and what to do."""
+
+
+@dataclass
+class Measured:
+    """One quantity over the rounds."""
+    values: list
+
+    def __truediv__(self, other):
+        return Measured([one / another for one, another in zip(self.values, other.values)])
+
+    def __add__(self, other):
+        return Measured([one + another for one, another in zip(self.values, other.values)])
+
+    def times(self, factor):
+        return Measured([factor * value for value in self.values])
+
+    @property
+    def median(self):
+        return statistics.median(self.values)
+
+    def text(self, digits):
+        if min(self.values) == max(self.values):
+            return f"{self.median:.{digits}f}"
+        return f"{self.median:.{digits}f} ({min(self.values):.{digits}f} to {max(self.values):.{digits}f})"
+
+
+@dataclass
+class Bound:
+    what: str
+    measured: Measured
+    sign: str  # <= or >=
+    limit: float
+    unit: str = ""
+
+    def row(self):
+        holds = self.measured.median <= self.limit if self.sign == "<=" else self.measured.median >= self.limit
+        text = self.measured.text(0 if self.limit >= 100.0 else 2)
+        return [self.what, text + self.unit, f"{self.sign} {self.limit:g}{self.unit}", "yes" if holds else "**no**"]
+
+
+# ---- Programs
+
+
+def execute(command):
+    """Standard output of `command` and the most memory [bytes] that it had resident."""
+    with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
+        process = subprocess.Popen(command, stdout=output, stderr=errors, stdin=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        output.seek(0)
+        errors.seek(0)
+        text = output.read()
+        if process.returncode != 0:
+            last_lines = "\n".join((text + errors.read()).strip().splitlines()[-5:])
+            raise Failure(f"{' '.join(map(str, command))}\nended with status {process.returncode}:\n{last_lines}")
+    return text, 1024.0 * usage.ru_maxrss
+
+
+def time_of_others():
+    """Processor seconds of everything on this machine but this program and what it has run; and the time of day, in seconds."""
+    with open("/proc/stat") as file:
+        user, nice, system, _, _, *interrupts_and_steal = map(int, file.readline().split()[1:9])
+    busy = (user + nice + system + sum(interrupts_and_steal)) / os.sysconf("SC_CLK_TCK")
+    own = os.times()
+    return busy - sum(own[:4]), monotonic()
+
+
+def run_yardstick(program):
+    """Nanoseconds per directed pair, or per bond, by the name of the loop."""
+    lines = re.findall(r"^(\S.*?) +(\S+) ns/item", execute([program])[0], re.MULTILINE)
+    if not lines:
+        raise Failure(f"--yardstick: {program} printed no times")
+    return {f"yardstick, {name}": float(value) for name, value in lines}
+
+
+def run_benchmarks(program, pattern, repetitions, least_seconds):
+    """Counters by benchmark and name, the least of the repetitions; and the resident memory of the program."""
+    command = [program, f"--benchmark_filter={pattern}", f"--benchmark_repetitions={repetitions}", f"--benchmark_min_time={least_seconds}",
+               f"--benchmark_enable_random_interleaving={str(repetitions > 1).lower()}", "--benchmark_format=json"]
+    text, resident = execute(command)
+    result = {}
+    for run in json.loads(text)["benchmarks"]:
+        if run["run_type"] != "iteration":
+            continue
+        if run.get("error_occurred"):
+            raise Failure(f"{run['name']}: {run.get('error_message')}")
+        benchmark = re.sub(r"/(real_time|manual_time)$", "", run["run_name"])
+        for name in ("ns/pair", "ns/bond", "ns/particle", "bytes/particle", "list builds/step", "sweep ns", "lists ns", "rest ns"):
+            if name in run:
+                key = f"{benchmark}, {name}"
+                result[key] = min(result.get(key, float("inf")), run[name])
+        if "ns/particle" in run:
+            result[f"{benchmark}, processor ns/particle"] = run["ns/particle"] * run["cpu_time"] / run["real_time"]
+    if not result:
+        raise Failure(f"{program} has no benchmark {pattern}")
+    return result, resident
+
+
+def run_round(options):
+    """All quantities once."""
+    result = run_yardstick(options.yardstick) if options.yardstick else {}
+    for program in (options.pair_sweep, options.bond_sweep):  # an iteration is one sweep: repetitions of one iteration each
+        result |= run_benchmarks(program, ".", 7, 0.001)[0]
+    for side in SIDES[:1] + SIDES[2:] + ((LARGE_SIDE,) if options.large else ()):  # programs apart, for their memory
+        found, resident = run_benchmarks(options.step, f"whole_step/{side}/", 1, 0.5)
+        result |= found | {f"whole_step/{side}, resident bytes": resident}
+    return result | run_benchmarks(options.step, "parts_of_step|whole_step/(50|63)/", 1, 0.5)[0]
+
+
+def run_compile_cost(program):
+    """Seconds and MiB by header or example."""
+    lines = re.findall(r"^(\S+) +(\S+) s +(\S+) MiB", execute([program])[0], re.MULTILINE)
+    if not lines:
+        raise Failure(f"--compile-cost: {program} printed no times")
+    return {name: (float(seconds), float(mebibytes)) for name, seconds, mebibytes in lines}
+
+
+# ---- Tables
+
+
+def table(header, rows):
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in [header, ["---"] * len(header), *rows])
+
+
+def particles(side):
+    return f"{side ** 3:,}".replace(",", " ")
+
+
+def resident_per_particle(of):
+    """What a million particles add to the memory of a program with few."""
+    small, large = SIDES[0], SIDES[2]
+    growth = of(f"whole_step/{large}, resident bytes") + of(f"whole_step/{small}, resident bytes").times(-1.0)
+    return growth.times(1.0 / (large ** 3 - small ** 3))
+
+
+def whole(of, side):
+    """A step as the sum of its parts."""
+    return of(f"parts_of_step/{side}, sweep ns") + of(f"parts_of_step/{side}, lists ns") + of(f"parts_of_step/{side}, rest ns")
+
+
+def bounds(of, compile_cost, has_yardstick):
+    composed, by_hand = ({precision: of(f"pair_sweep_{how}<precision::{precision}>, ns/pair") for precision in ("Double", "Single")}
+                         for how in ("composed", "by_hand"))
+    full, half = ("yardstick, pair scalar full list", "yardstick, pair scalar half list")
+    rows = []
+    if has_yardstick:
+        rows += [Bound("pair sweep, double: faster than the yardstick's scalar full list", of(full) / composed["Double"], ">=", 3.0),
+                 Bound("pair sweep, double: faster than its half list", of(half) / composed["Double"], ">=", 2.0)]
+        rows += [Bound(f"pair sweep, {name}: time over that of its AVX2 loop", composed[name.title()] / of(f"yardstick, pair AVX2 {name}"),
+                       "<=", 1.3) for name in ("double", "single")]
+    rows += [Bound(f"pair sweep, {name.lower()}: composed over written by hand", time / by_hand[name], "<=", 1.05)
+             for name, time in composed.items()]
+    for side in SIDES[1:]:
+        sweep, lists = of(f"parts_of_step/{side}, sweep ns"), of(f"parts_of_step/{side}, lists ns")
+        rows += [Bound(f"whole step over its sweep, {particles(side)} particles", whole(of, side) / sweep, "<=", 1.35),
+                 Bound(f"list build per step over the sweep, {particles(side)} particles", lists / sweep, "<=", 0.15)]
+    rows += [Bound(f"{threads} threads: whole step faster than with 1, {particles(63)} particles",
+                   of("whole_step/63/1/0, ns/particle") / of(f"whole_step/63/{threads}/0, ns/particle"), ">=", least)
+             for threads, least in zip(THREADS, (1.85, 3.5))]
+    if has_yardstick:
+        loop = of("yardstick, bond scalar, both sides")
+        rows.append(Bound("bond sweep: faster than the yardstick's scalar loop", loop / of("bond_sweep_composed, ns/bond"), ">=", 2.0))
+    large, small = (of(f"whole_step/{side}/1/0, processor ns/particle") for side in (SIDES[2], SIDES[0]))
+    rows += [Bound(f"time per particle-step, {particles(SIDES[2])} particles over {particles(SIDES[0])}", large / small, "<=", 1.25),
+             Bound(f"memory per particle, resident, {particles(SIDES[2])} particles", resident_per_particle(of), "<=", 600.0, " B"),
+             Bound("compile `dam_break` at -O2", Measured([compile_cost["examples/dam_break.cpp"][0]]), "<=", 10.0, " s"),
+             Bound("the same, memory", Measured([compile_cost["examples/dam_break.cpp"][1]]), "<=", 700.0, " MiB"),
+             Bound("compile one law header alone", Measured([max(compile_cost[header][0] for header in LAW_HEADERS)]), "<=", 0.5, " s")]
+    return table(["", "measured", "bound", "holds"], [row.row() for row in rows])
+
+
+def sweeps(of, has_yardstick):
+    lines = []
+    for key in ["pair_sweep_composed<precision::Double>, ns/pair", "pair_sweep_by_hand<precision::Double>, ns/pair",
+                "pair_sweep_composed<precision::Single>, ns/pair", "pair_sweep_by_hand<precision::Single>, ns/pair",
+                "bond_sweep_composed, ns/bond", "bond_sweep_scalar, ns/bond"]:
+        name, unit = key.rsplit(", ns/", 1)
+        lines.append([f"`{name}`", unit, of(key).text(2)])
+    if has_yardstick:
+        for name in ("pair scalar full list", "pair scalar half list", "pair AVX2 double", "pair AVX2 single", "bond scalar, both sides"):
+            lines.append([f"yardstick, {name}", name.split()[0], of(f"yardstick, {name}").text(2)])
+    return table(["", "of one", "ns"], lines)
+
+
+def profile(of):
+    rows = []
+    for part, name in (("sweep", "sweep over the pairs"), ("lists", "list build with sorting and ghosts, per step"),
+                       ("rest", "rest: integration, material laws, records")):
+        cells = [name]
+        for side in SIDES[1:]:
+            time = of(f"parts_of_step/{side}, {part} ns")
+            cells += [time.text(0), f"{(time / whole(of, side)).times(100.0).median:.0f} %"]
+        rows.append(cells)
+    total, builds = ["whole step"], ["steps between list builds"]
+    for side in SIDES[1:]:
+        total += [whole(of, side).text(0), "100 %"]
+        builds += [f"{1.0 / of(f'parts_of_step/{side}, list builds/step').median:.1f}", ""]
+    header = [""] + [text for side in SIDES[1:] for text in (f"{particles(side)} particles, ns", "")]
+    return table(header, [*rows, total, builds])
+
+
+STEP_HEADER = ["ns per particle-step", "over the first line", "steps between list builds", "bytes per particle"]
+
+
+def step_cells(of, benchmark, first):
+    time, builds, held = (of(f"{benchmark}, {counter}") for counter in ("processor ns/particle", "list builds/step", "bytes/particle"))
+    return [time.text(0), (time / of(f"{first}, processor ns/particle")).text(2), f"{1.0 / builds.median:.1f}", f"{held.median:.0f}"]
+
+
+def skins(of):
+    rows = []
+    for skin in (0, *SKINS):
+        name = f"{skin / 1000:.2f}" if skin else "as a scene chooses it"
+        rows.append([name, *step_cells(of, f"whole_step/50/1/{skin}", "whole_step/50/1/0")])
+    return table(["skin / support", *STEP_HEADER], rows)
+
+
+def growth(of, large):
+    sides = SIDES + ((LARGE_SIDE,) if large else ())
+    rows = [[particles(side), *step_cells(of, f"whole_step/{side}/1/0", f"whole_step/{SIDES[0]}/1/0")] for side in sides]
+    return table(["particles", *STEP_HEADER], rows)
+
+
+def compile_table(compile_cost):
+    rows = [[f"`{name}`", f"{seconds:.2f}", f"{mebibytes:.0f}"] for name, (seconds, mebibytes) in compile_cost.items()]
+    return table(["", "s", "MiB"], rows)
+
+
+def report(rounds, compile_cost, options, others):
+    def of(key):
+        if any(key not in values for values in rounds):
+            raise Failure(f"no benchmark measured: {key}; do the programs belong to this report?")
+        return Measured([values[key] for values in rounds])
+
+    has_yardstick = options.yardstick is not None
+    return "\n\n".join([
+        f"{options.repeats} rounds on {len(os.sched_getaffinity(0))} processors, of which others kept {others:.1f} busy meanwhile. Medians "
+        "(least to largest); ratios are taken within a round. Sweeps: best of 7, as the yardstick. Steps: means over 40 or more, processor "
+        "time, but for threads. Compiling: the better of two."
+        + ("" if has_yardstick else " No yardstick was given."),
+        "## Bounds", bounds(of, compile_cost, has_yardstick),
+        "## Sweeps on one core", sweeps(of, has_yardstick),
+        "## Profile of a step", profile(of),
+        "## Skin", skins(of),
+        "## Growth", growth(of, options.large),
+        "## Compiling", compile_table(compile_cost)])
+
+
+# ---- Command line
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in ("pair-sweep", "bond-sweep", "step", "compile-cost"):
+        parser.add_argument(f"--{name}", required=True, help=f"the program {name.replace('-', '_')}")
+    parser.add_argument("--yardstick", help="the yardstick's program; without it its rows are left out")
+    parser.add_argument("--repeats", type=int, default=5, help="rounds (5)")
+    parser.add_argument("--large", action="store_true", help=f"also {particles(LARGE_SIDE)} particles: 3 GiB, 2 minutes more per round")
+    parser.add_argument("--output", type=Path, help="folder for report.md and all single values, runs.csv; without it nothing is written")
+    options = parser.parse_args()
+    if options.repeats < 1:
+        parser.error("--repeats must be >= 1")
+    for name in ("pair_sweep", "bond_sweep", "step", "compile_cost", "yardstick"):
+        path = getattr(options, name)
+        if path is not None and shutil.which(path) is None:
+            parser.error(f"--{name.replace('_', '-')}: no such program: {path}")
+    return options
+
+
+def main():
+    options = parse_arguments()
+    if options.output is not None:
+        options.output.mkdir(parents=True, exist_ok=True)
+    start, rounds = time_of_others(), []
+    for number in range(options.repeats):
+        rounds.append(run_round(options))
+        step = rounds[-1]["whole_step/50/1/0, ns/particle"]
+        print(f"round {number + 1} of {options.repeats}: a step takes {step:.0f} ns per particle", file=sys.stderr)
+    end = time_of_others()
+    others = (end[0] - start[0]) / (end[1] - start[1])
+    print("compiling", file=sys.stderr)
+    compile_cost = run_compile_cost(options.compile_cost)
+    text = report(rounds, compile_cost, options, others)
+    print(text)
+    if options.output is not None:
+        (options.output / "report.md").write_text(text + "\n")
+        with open(options.output / "runs.csv", "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(["round", "quantity", "value"])
+            writer.writerows([number, key, value] for number, values in enumerate(rounds) for key, value in values.items())
+            for name, cost in compile_cost.items():
+                writer.writerows(["", f"compile {name}, {unit}", value] for unit, value in zip(("s", "MiB"), cost))
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Failure as failure:
+        sys.exit(f"report.py: {failure}")
