@@ -353,6 +353,33 @@ TEST_CASE("a bond across periodic faces acts like one inside, and goes on so whi
     }
 }
 
+namespace {
+struct Plate {};
+/// 1 m/s to the right.
+struct Tow {
+  [[nodiscard]] Vector<2> position(const Vector<2>& start, double time) const { return start + Vector<2>(time, 0.0); }
+  [[nodiscard]] Vector<2> velocity(const Vector<2>&, double) const { return {1.0, 0.0}; }
+};
+}  // namespace
+
+TEST_CASE("a driven plate tows a bead through the periodic box, several times round, as if it were at rest") {
+  auto scene = simulation::scene<integrator::Leapfrog>(
+      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, false}},
+      simulation::group<Plate>("plate", particles::Driven<Tow>{}, geometry::Points<2>{.positions = {{0.3, 0.5}}, .spacing = 0.0, .volume = 1.0}, 1.0),
+      simulation::group<Net>("bead", particles::Mobile{}, geometry::Points<2>{.positions = {{0.4, 0.5}}, .spacing = 0.0, .volume = 1.0}, 1.0),
+      simulation::bonds<Plate, Net>(bond::KelvinVoigt{.stiffness = 100.0, .damping = 5.0}, {{0, 0}}));
+  scene.template group<Net>().template set<field::Velocity>([](const auto&) { return Vector<2>(1.0, 0.0); });
+  double slowest = 1.0, fastest = 1.0;
+  scene.every(0.01, [&](const auto& s) {
+    const double speed = s.template group<Net>().template get<field::Velocity>()[0][0];
+    slowest = std::min(slowest, speed);
+    fastest = std::max(fastest, speed);
+  });
+  scene.run({.until = 3.7, .time_step = 1e-3});
+  CHECK(slowest == doctest::Approx(1.0).epsilon(1e-9));
+  CHECK(fastest == doctest::Approx(1.0).epsilon(1e-9));
+}
+
 TEST_CASE("the stiffness bound is where it ends: a ring is stable at 0.95 of it, a larger step is refused, and one taken nevertheless blows up") {
   auto ring = zigzag({{.stiffness = 100.0, .damping = 0.0}});
   const auto limit = ring.step_limit();

@@ -331,7 +331,7 @@ template <int Part, int Width, class Real, int All>
       return Pack<Real, Width>(__builtin_shufflevector(a.raw, a.raw, (Part * Width + static_cast<int>(L))...));
     }
     (std::make_index_sequence<Width>{});
-#if defined(__AVX__)
+#if defined(__AVX__) && !defined(__clang__)
     if constexpr (Width == 4) return Pack<double, 4>(__builtin_ia32_cvtps2pd256(part.raw));  // GCC 12 converts halves
 #endif
     return Pack<double, Width>(__builtin_convertvector(part.raw, typename Pack<double, Width>::Raw));

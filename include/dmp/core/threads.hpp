@@ -109,8 +109,8 @@ class Blocks {
   /// there are enough blocks to share out.
   [[nodiscard]] static constexpr std::size_t rows_wanted(std::size_t count) noexcept { return std::clamp<std::size_t>(count / 64, 4096, 16384); }
 
-  /// For each block, rows after those of the particles where sums end up that nobody wants; apart, so that no two threads share a cache line.
-  static constexpr std::size_t far_rows = 8;
+  /// For each block, rows after those of the particles where sums end up that nobody wants, one per lane; apart, so that no two threads share a cache line.
+  static constexpr std::size_t far_rows = 16;
   [[nodiscard]] std::size_t far_row(std::size_t block) const noexcept { return bounds_.back() + far_rows * block; }
 
   Blocks() = default;

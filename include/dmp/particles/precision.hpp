@@ -29,9 +29,10 @@ struct Double {
   };
 };
 
-/// Records in single precision, half the memory and twice the lanes. Positions are whole numbers of 2^-30 of the extent of the scene, so that
-/// the separation of neighbours is as exact as single precision can hold it, wherever they are: relative error 2^-24, or 2^-31 of the
-/// extent. Laws get about seven digits; whether that is enough an example tells (docs/performance.md).
+/// Records in single precision, half the memory and twice the lanes. Positions are whole numbers of 2^-30 of a frame somewhat more than twice
+/// as long as the scene, so that the separation of neighbours does not depend on where they are: its error is 2^-24 of itself, and 2^-30 of
+/// the frame. A particle far outside of all others makes the frame long and the rest coarse. Laws get about seven digits; what that means for
+/// a flow, examples/taylor_green tells.
 struct Single {
   using Real = float;
   static constexpr std::string_view name = "single";

@@ -5,6 +5,7 @@
 #include <dmp/core/aligned.hpp>
 #include <dmp/core/field.hpp>
 #include <dmp/core/pack.hpp>
+#include <dmp/core/threads.hpp>
 #include <dmp/particles/records.hpp>
 
 namespace dmp::particles {
@@ -40,6 +41,7 @@ class Sums<Dim, Fields<Field...>> {
 
     template <class Real, int Width>
     [[gnu::always_inline]] void operator()(const std::uint32_t* index, view<Pack<Real, Width>>& lanes) const noexcept {
+      static_assert(Width <= Blocks::far_rows);
       typename Pack<Real, Width>::Rows rows;
       __builtin_memcpy(&rows, index, sizeof(rows));
       rows = rows - first < last - first ? rows : Pack<Real, Width>::lane_numbers() + elsewhere;

@@ -178,8 +178,11 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
   void follow_motion(G& g, std::size_t i, double time) {
     if constexpr (particles::is_driven<typename G::Mobility>) {
       const auto& start = g.template get<StartPosition>()[i];
-      const Vector<Dim> there = this->box_.wrap(g.mobility.motion.position(start, time));
-      g.positions()[i] += neighbours::minimum_image<Dim>(there - g.positions()[i], this->box_);  // no jump before lists are built again
+      Vector<Dim> there = g.mobility.motion.position(start, time);
+      for (int d = 0; d < Dim; ++d)  // no jump through a periodic face before positions are put back into the box
+        if (const double period = this->periods_[static_cast<std::size_t>(d)]; period > 0.0)
+          there[d] += period * std::round((g.positions()[i][d] - there[d]) / period);
+      g.positions()[i] = there;
       g.template get<field::Velocity>()[i] = g.mobility.motion.velocity(start, time);
     }
   }

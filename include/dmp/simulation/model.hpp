@@ -331,8 +331,9 @@ class Model {
         const double cell = 0.5 * (longest_cutoff_ + skin_);
         order_.build(g.positions(), cell, g.spacing > 0.0 ? std::pow(cell / g.spacing, Dim) : 0.0);
         g.blocks.set_bounds(order_.bounds());
-        if (g.records.size() < g.size()) g.records.resize(g.size());  // records are packed anew after this: their memory is free
-        static_assert(G::Records::bytes_per_particle() >= Dim * sizeof(double));
+        // Records are packed anew after this: their memory is free, and takes one column at a time.
+        const std::size_t rows_for_a_column = g.size() * Dim * sizeof(double) / G::Records::bytes_per_particle() + 1;
+        g.records.resize(std::max(g.records.size(), rows_for_a_column));
         g.columns.permute(order_.rows(), g.blocks.ranges(), reinterpret_cast<double*>(g.records.data()));
         auto* const id = reinterpret_cast<std::uint32_t*>(g.records.data());
         std::copy(g.id.begin(), g.id.end(), id);

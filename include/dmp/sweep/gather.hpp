@@ -12,13 +12,14 @@ namespace dmp::sweep {
 /// The pack of numbers that sweeps in double work with.
 using Lanes = Pack<double, native_width<double>>;
 
-/// Sums before and after a sweep: all zero, and the lanes of a pack added up.
+/// Sums before a sweep. `zero`: -0.0 where the first thing added is all there is, since x + -0.0 is x, which the compiler knows; x + 0.0 may
+/// not be (-0.0 + 0.0).
 template <int Dim, class T, class... Field>
-[[gnu::always_inline]] inline void set_zero(View<Dim, T, Fields<Field...>>& view) noexcept {
-  [[maybe_unused]] const auto one = [](auto& member) {
+[[gnu::always_inline]] inline void set_zero(View<Dim, T, Fields<Field...>>& view, double zero = 0.0) noexcept {
+  [[maybe_unused]] const auto one = [zero](auto& member) {
     if constexpr (requires { member.component; })
-      unrolled<Dim>([&](auto d) __attribute__((always_inline)) { member.component[d] = T(0.0); });
-    else member = T(0.0);
+      unrolled<Dim>([&](auto d) __attribute__((always_inline)) { member.component[d] = T(zero); });
+    else member = T(zero);
   };
   (one(Field::of(view)), ...);
 }
@@ -82,7 +83,7 @@ template <int Dim, class I, class Source, class Sums, class Add, class... Law>
     (law.add(pair, i, j, sums), ...);
     const auto seen_from_j = reversed<velocity>(pair);
     Sums of_j;
-    set_zero(of_j);
+    set_zero(of_j, -0.0);
     (law.add(seen_from_j, j, i, of_j), ...);
     add(neighbours.data() + k, of_j);
   }
