@@ -202,7 +202,7 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Precision, Item...> {
       double* const to = add.data + row * static_cast<std::size_t>(G::Sums::stride);
       sweep::Row<Dim>::load(to).plus(factor, vector).store(to);
     };
-    const auto react = [&plus](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
+    const auto react = [&](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
       if constexpr (std::is_same_v<Source, typename G::Tag>) plus(row, factor, vector);
     };
     if (list.crosses(i)) plus(i, 1.0, sweep::sum_bonds<Dim, true>(records, list.of(i), bond_periods_, react, law));
