@@ -16,22 +16,18 @@ import os
 import re
 import shutil
 import statistics
-import subprocess
 import sys
-import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
+
+from processes import Failure, execute
 
 THREADS = (2, 4)
 SKINS = (50, 100, 150, 200, 300)  # thousandths of the support
 SIDES = (22, 50, 100)
 LARGE_SIDE = 160
 LAW_HEADERS = ("dmp/kernel/lucy.hpp", "dmp/bond/harmonic.hpp")  # the slower one counts
-
-
-class Failure(Exception):
-    """A text for the user: what went wrong, and what to do."""
 
 
 @dataclass
@@ -73,21 +69,6 @@ class Bound:
 
 
 # ---- Programs
-
-
-def execute(command):
-    """Standard output of `command` and the most memory [bytes] that it had resident."""
-    with tempfile.TemporaryFile("w+") as output, tempfile.TemporaryFile("w+") as errors:
-        process = subprocess.Popen(command, stdout=output, stderr=errors, stdin=subprocess.DEVNULL)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        output.seek(0)
-        errors.seek(0)
-        text = output.read()
-        if process.returncode != 0:
-            last_lines = "\n".join((text + errors.read()).strip().splitlines()[-5:])
-            raise Failure(f"{' '.join(map(str, command))}\nended with status {process.returncode}:\n{last_lines}")
-    return text, 1024.0 * usage.ru_maxrss
 
 
 def time_of_others():

@@ -23,6 +23,9 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parent.parent))
+from processes import Failure, execute
+
 FOLDER = Path(__file__).resolve().parent
 
 
@@ -61,26 +64,6 @@ class Run:
     list_builds: int  # during the timed steps
     resident_bytes: float  # LAMMPS: of the whole process; dmp: what the scene added
     figures: dict
-
-
-class Failure(Exception):
-    """A text for the user: what went wrong, and what to do."""
-
-
-def execute(command, threads, folder):
-    """Standard output of `command` and the most memory [bytes] that it had resident."""
-    environment = dict(os.environ, OMP_NUM_THREADS=str(threads))
-    with open(folder / "stdout", "w+") as output, open(folder / "stderr", "w+") as errors:
-        process = subprocess.Popen(command, stdout=output, stderr=errors, stdin=subprocess.DEVNULL, cwd=folder, env=environment)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        output.seek(0)
-        errors.seek(0)
-        text = output.read()
-        if process.returncode != 0:
-            last_lines = "\n".join((text + errors.read()).strip().splitlines()[-5:])
-            raise Failure(f"{' '.join(map(str, command))}\nended with status {process.returncode}:\n{last_lines}")
-    return text, 1024.0 * usage.ru_maxrss
 
 
 def run_lammps(lmp, case, size, steps, warm, ranks, folder):

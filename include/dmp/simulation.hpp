@@ -7,9 +7,11 @@
 #include <dmp/simulation/group.hpp>        // One group: columns, records, ghosts, grid.
 #include <dmp/simulation/items.hpp>        // group, interaction, bonds, material, forced_by: what a scene is made of.
 #include <dmp/simulation/limits.hpp>       // Bounds of the time step, from all laws of a scene.
-#include <dmp/simulation/model.hpp>        // Groups and items of a scene, and who is near whom.
+#include <dmp/simulation/lists.hpp>        // Who is near whom, and when lists are worn.
+#include <dmp/simulation/model.hpp>        // Groups and items of a scene.
 #include <dmp/simulation/output.hpp>       // VtkOutput: all groups for ParaView.
 #include <dmp/simulation/probe.hpp>        // A field at a point, from the particles around it.
 #include <dmp/simulation/progress.hpp>     // Bar with the time left.
+#include <dmp/simulation/rules.hpp>        // What the items of a scene must agree on.
 #include <dmp/simulation/scene.hpp>        // scene, run, observers, checkpoint and restart.
 #include <dmp/simulation/state.hpp>        // The state as plain numbers: checks, snapshots, checkpoints.

@@ -87,9 +87,11 @@ TEST_CASE("a bond is refused with its ends and the reason: itself, nobody there,
   CHECK(complaint({{0, 1}, {1, 2}, {1, 0}}) == "bonds of net: the same two particles must not be bonded twice, got bond (0, 1)");
 }
 
-TEST_CASE("a bond is refused when its rest length is no number, or it is longer than 0.45 of a periodic box") {
+TEST_CASE("a bond is refused when its rest length or weight is no number, or it is longer than 0.45 of a periodic box") {
   CHECK(complaint({{0, 1, NAN}}) == "bonds of net: rest_length must be finite, got bond (0, 1)");
   CHECK(complaint({{0, 1, INFINITY}}) == "bonds of net: rest_length must be finite, got bond (0, 1)");
+  CHECK(complaint({{0, 1, 0.5, -1.0}}) == "bonds of net: weight must be >= 0 and finite, got bond (0, 1)");
+  CHECK(complaint({{0, 1, 0.5, NAN}}) == "bonds of net: weight must be >= 0 and finite, got bond (0, 1)");
   CHECK(complaint({{0, 1, 0.5}}, periodic) == "bonds of net: length must be <= 0.45 of the periodic box, got bond (0, 1)");
   CHECK(complaint({{0, 1, 0.449}}, periodic).empty());
   CHECK(complaint({{0, 1, 0.5}}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {false, true}}) ==

@@ -36,7 +36,7 @@ void check_sums() {
   const auto add = sums.adder(first, last, elsewhere);
   for (std::uint32_t n = 0; n < 50; ++n) {
     std::uint32_t index[width];
-    LanesView lanes;
+    LanesView lanes{};
     for (std::uint32_t lane = 0; lane < width; ++lane) {
       index[lane] = n * lane % count;                 // some twice
       if (lane % 3 == 2) index[lane] = count + 1000;  // a ghost, say
@@ -53,7 +53,7 @@ void check_sums() {
     });
     add(index, lanes);
   }
-  LanesView lanes;
+  LanesView lanes{};
   std::vector<double> of_lanes;
   dmp::particles::detail::for_each_number(lanes, [&](int slot, Lanes& number) {
     number = 1.0 + slot;

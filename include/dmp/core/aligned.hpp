@@ -6,8 +6,8 @@
 
 namespace dmp {
 
-/// Allocator of whole cache lines: a record of 8 doubles then never straddles two of them. New elements are left as they are: the thread that
-/// writes them first also places them in its memory.
+/// Allocator of whole cache lines: a record of 8 doubles then never straddles two of them. New elements are left as they are: the thread
+/// that writes them first also places them in its memory.
 template <class T>
 struct CacheAligned {
   using value_type = T;
@@ -31,8 +31,8 @@ struct CacheAligned {
 template <class T>
 using AlignedVector = std::vector<T, CacheAligned<T>>;
 
-/// resize for what varies a little from time to time, such as what depends on the number of ghosts: with a margin of 1/32 where `resize` would
-/// take twice the memory.
+/// resize for what varies a little from time to time, such as what depends on the number of ghosts: with a margin of 1/32 where `resize`
+/// would take twice the memory.
 template <class Vector>
 void resize_with_margin(Vector& values, std::size_t count) {
   if (values.capacity() < count) values.reserve(count + count / 32);

@@ -260,7 +260,8 @@ template <int Width>
 /// Loads field by field what lies record by record: out[f] lane l = base[stride * index[l] + f], f < Count. `stride` is a multiple
 /// of the width: whole registers are loaded and transposed, which on AVX is 3 to 4 times as fast as gathering numbers one by one.
 template <int Count, class Real, int Width>
-[[gnu::always_inline]] inline void load_transposed(const Real* base, int stride, const std::uint32_t* index, Pack<Real, Width>* out) noexcept {
+[[gnu::always_inline]] inline void load_transposed(const Real* base, int stride, const std::uint32_t* index,
+                                                   Pack<Real, Width>* out) noexcept {
   using Raw = typename Pack<Real, Width>::Raw;
   const Real* record[Width];
   unrolled<Width>([&](auto lane) __attribute__((always_inline)) {
@@ -271,15 +272,17 @@ template <int Count, class Real, int Width>
     Raw row[Width];
     unrolled<Width>([&](auto lane) __attribute__((always_inline)) { __builtin_memcpy(&row[lane], record[lane] + first, sizeof(Raw)); });
     detail::transpose_steps<1>(row);
-    unrolled<(Count - first < Width ? Count - first : Width)>(
-        [&](auto field) __attribute__((always_inline)) { out[first + field] = Pack<Real, Width>(row[field]); });
+    unrolled<(Count - first < Width ? Count - first : Width)>([&](auto field) __attribute__((always_inline)) {
+      out[first + field] = Pack<Real, Width>(row[field]);
+    });
   });
 }
 
-/// The reverse, added: base[stride * index[l] + f] += in[f] lane l, f < Count, one record after the other, so that an index may stand twice.
-/// Numbers that fill up the last register of a record get zeros added.
+/// The reverse, added: base[stride * index[l] + f] += in[f] lane l, f < Count, one record after the other, so that an index may stand
+/// twice. Numbers that fill up the last register of a record get zeros added.
 template <int Count, class Real, int Width>
-[[gnu::always_inline]] inline void add_transposed(Real* base, int stride, const std::uint32_t* index, const Pack<Real, Width>* in) noexcept {
+[[gnu::always_inline]] inline void add_transposed(Real* base, int stride, const std::uint32_t* index,
+                                                  const Pack<Real, Width>* in) noexcept {
   using Raw = typename Pack<Real, Width>::Raw;
   unrolled<(Count + Width - 1) / Width>([&](auto block) __attribute__((always_inline)) {
     constexpr int first = block * Width;
@@ -316,8 +319,9 @@ template <int Count, class Real, int Width>
       else rows[field] = 0.0;
     });
     const auto sums = sum_across(rows);
-    unrolled<(Count - first < Width ? Count - first : Width)>(
-        [&](auto field) __attribute__((always_inline)) { out[first + field] = static_cast<double>(sums[field]); });
+    unrolled<(Count - first < Width ? Count - first : Width)>([&](auto field) __attribute__((always_inline)) {
+      out[first + field] = static_cast<double>(sums[field]);
+    });
   });
 }
 

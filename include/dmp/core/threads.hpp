@@ -82,10 +82,10 @@ inline void run_ranges(const Ranges& ranges, RangeFunction function) {
 template <class Function>
 void for_each_range(const Ranges& ranges, Function&& function) {
   using F = std::remove_reference_t<Function>;
-  detail::run_ranges(ranges, {const_cast<std::remove_const_t<F>*>(&function), [](void* object, std::size_t range, std::size_t first,
-                                                                                std::size_t last) {
-                                (*static_cast<F*>(object))(range, first, last);
-                              }});
+  detail::run_ranges(
+      ranges, {const_cast<std::remove_const_t<F>*>(&function), [](void* object, std::size_t range, std::size_t first, std::size_t last) {
+                 (*static_cast<F*>(object))(range, first, last);
+               }});
 }
 
 /// The largest of function(first row, one past the last row) over all ranges, by `merge(a, b)`, which must not depend on the order.
@@ -105,11 +105,14 @@ template <class T, class Function, class Merge>
 /// in which order, is decided within blocks: results do not depend on the number of threads.
 class Blocks {
  public:
-  /// Rows of a block where `count` particles are sorted in space: its sums stay in a core's cache, most neighbours are in the same block, and
-  /// there are enough blocks to share out.
-  [[nodiscard]] static constexpr std::size_t rows_wanted(std::size_t count) noexcept { return std::clamp<std::size_t>(count / 64, 4096, 16384); }
+  /// Rows of a block where `count` particles are sorted in space: its sums stay in a core's cache, most neighbours are in the same block,
+  /// and there are enough blocks to share out.
+  [[nodiscard]] static constexpr std::size_t rows_wanted(std::size_t count) noexcept {
+    return std::clamp<std::size_t>(count / 64, 4096, 16384);
+  }
 
-  /// For each block, rows after those of the particles where sums end up that nobody wants, one per lane; apart, so that no two threads share a cache line.
+  /// For each block, rows after those of the particles where sums end up that nobody wants, one per lane; apart, so that no two threads
+  /// share a cache line.
   static constexpr std::size_t far_rows = 16;
   [[nodiscard]] std::size_t far_row(std::size_t block) const noexcept { return bounds_.back() + far_rows * block; }
 

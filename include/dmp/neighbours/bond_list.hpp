@@ -123,9 +123,12 @@ class BondList {
   /// Of particle i, whole packs.
   [[nodiscard]] Entries of(std::size_t i) const noexcept {
     const std::uint32_t first = offset_[i];
-    return {offset_[i + 1] - first,      partner_.data() + first,
-            reaction_.data() + first,    rest_length_.data() + first,
-            weight_.data() + weight_step_ * first, weight_step_};
+    return {offset_[i + 1] - first,
+            partner_.data() + first,
+            reaction_.data() + first,
+            rest_length_.data() + first,
+            weight_.data() + weight_step_ * first,
+            weight_step_};
   }
   /// Sum of the weights of the bonds of particle i, wherever they are listed.
   [[nodiscard]] double sum_of_weights(std::size_t i) const noexcept { return sum_of_weights_[i]; }

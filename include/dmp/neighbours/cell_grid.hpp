@@ -37,7 +37,8 @@ class CellGrid {
  public:
   /// Sorts `positions` into cells of at least `cell_width` [m]; wider where that would make many more cells than particles.
   void build(std::span<const Vector<Dim>> positions, double cell_width) {
-    build(positions.size(), [&](std::size_t k) -> const Vector<Dim>& { return positions[k]; }, cell_width);
+    build(
+        positions.size(), [&](std::size_t k) -> const Vector<Dim>& { return positions[k]; }, cell_width);
   }
   /// The same for position(0 .. count - 1).
   template <class Position>
@@ -120,13 +121,12 @@ class CellGrid {
       };
       if constexpr (Dim == 2) in_plane(0, 0.0);
       else
-        for (int c = low[2]; c <= high[2]; ++c) in_plane(static_cast<std::size_t>(c) * static_cast<std::size_t>(cells_.count[1]), distance(2, c));
+        for (int c = low[2]; c <= high[2]; ++c)
+          in_plane(static_cast<std::size_t>(c) * static_cast<std::size_t>(cells_.count[1]), distance(2, c));
     }
   }
 
-  [[nodiscard]] std::size_t bytes() const noexcept {
-    return sort_.bytes() + Dim * coordinate_[0].capacity() * sizeof(float);
-  }
+  [[nodiscard]] std::size_t bytes() const noexcept { return sort_.bytes() + Dim * coordinate_[0].capacity() * sizeof(float); }
 
  private:
   using Lanes = Pack<float, native_width<float>>;

@@ -23,7 +23,8 @@ struct Cells {
   Cells() = default;
   /// Cells of at least `least_width` [m] over position(0 .. size - 1); wider where that would make many more cells than particles.
   template <class Position>
-  Cells(std::size_t size, const Position& position, double least_width) : Cells(size, position, least_width, 4.0 * static_cast<double>(size) + 64.0) {}
+  Cells(std::size_t size, const Position& position, double least_width)
+      : Cells(size, position, least_width, 4.0 * static_cast<double>(size) + 64.0) {}
   /// The same with a number of cells that the caller bounds.
   template <class Position>
   Cells(std::size_t size, const Position& position, double least_width, double most_cells) {
@@ -70,7 +71,8 @@ struct Cells {
   /// Cell of x, counted along the first direction first.
   [[nodiscard]] std::size_t index(const Vector<Dim>& x) const noexcept {
     std::size_t cell = 0;
-    for (int d = Dim - 1; d >= 0; --d) cell = cell * static_cast<std::size_t>(count[static_cast<std::size_t>(d)]) + static_cast<std::size_t>(along(x[d], d));
+    for (int d = Dim - 1; d >= 0; --d)
+      cell = cell * static_cast<std::size_t>(count[static_cast<std::size_t>(d)]) + static_cast<std::size_t>(along(x[d], d));
     return cell;
   }
   /// Cell of x along direction d; the first or last one beyond the ends.

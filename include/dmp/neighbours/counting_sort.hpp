@@ -46,7 +46,9 @@ class CountingSort {
   static constexpr std::size_t readable_beyond = 32;  ///< entries after the last row, for whole vector registers
   /// Rows of key k are rows()[begin(k)] .. rows()[begin(k + 1) - 1].
   [[nodiscard]] std::size_t begin(std::size_t k) const noexcept { return start_[k]; }
-  [[nodiscard]] std::size_t bytes() const noexcept { return (key_.capacity() + start_.capacity() + rows_.capacity()) * sizeof(std::uint32_t); }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return (key_.capacity() + start_.capacity() + rows_.capacity()) * sizeof(std::uint32_t);
+  }
 
  private:
   std::vector<std::uint32_t> key_, start_{0, 0}, rows_;

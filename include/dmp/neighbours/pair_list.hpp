@@ -31,11 +31,12 @@ class PairList {
     std::span<const std::uint32_t> owner;
     bool once = true;  ///< pairs of a block are listed once; otherwise at both ends like all others
 
-        /// Row of the k-th of all owned particles and ghosts.
+    /// Row of the k-th of all owned particles and ghosts.
     [[nodiscard]] std::uint32_t row(std::uint32_t k) const noexcept { return k < owned ? k : k - owned + first_ghost; }
     [[nodiscard]] std::uint32_t original(std::uint32_t row) const noexcept { return row < owned ? row : owner[row - first_ghost]; }
   };
-  static constexpr std::size_t levels = 4;  ///< of use of the skin: pairs of level l act once (l + 1)/levels of the skin is used up, at most
+  static constexpr std::size_t levels =
+      4;  ///< of use of the skin: pairs of level l act once (l + 1)/levels of the skin is used up, at most
 
   /// `grid` holds the owned sources, then the ghosts. Pairs within `cutoff` + `skin` [m] are listed, and
   /// perhaps some that are farther apart by less than the margin of the grid.
@@ -110,7 +111,7 @@ class PairList {
 
  private:
   struct At {
-    std::uint32_t first;  // pack, counted from the start of the block
+    std::uint32_t first;                      // pack, counted from the start of the block
     std::array<std::uint16_t, levels> packs;  // of each level, with those before
   };
   struct Start {
@@ -131,7 +132,7 @@ class PairList {
     float* const __restrict fraction = found.fraction.data();
     const std::uint32_t owned = sources.owned, to_ghosts = sources.first_ghost - sources.owned;
     const std::uint32_t further_up = sources.same_group ? i + 1 - begin : 0;  // and itself
-    for (std::size_t k = 0; k < size; ++k) {  // in vector registers: no branches, differences wrap around
+    for (std::size_t k = 0; k < size; ++k) {                                  // in vector registers: no branches, differences wrap around
       const std::uint32_t row = rows[k] + (rows[k] < owned ? 0u : to_ghosts);
       rows[k] = row;
       fraction[k] = row - begin < further_up ? never : fraction[k];
@@ -144,7 +145,8 @@ class PairList {
 
   /// Memory for the rest of a range, by the look of the rows before `next`; without it vectors would take twice what they need.
   static void make_room(AlignedVector<std::uint32_t>& rows, const Blocks& blocks, std::size_t range, std::size_t next) {
-    const auto done = static_cast<double>(next - blocks.ranges().begin(range)), all = static_cast<double>(blocks.ranges().end(range) - blocks.ranges().begin(range));
+    const auto done = static_cast<double>(next - blocks.ranges().begin(range)),
+               all = static_cast<double>(blocks.ranges().end(range) - blocks.ranges().begin(range));
     if (!(done > 0.0)) return;
     const double expected = static_cast<double>(rows.size()) * all / done;
     if (static_cast<double>(rows.capacity()) < 1.01 * expected) rows.reserve(static_cast<std::size_t>(1.03 * expected) + 1024);

@@ -43,7 +43,8 @@ class RelativeMotion {
  public:
   /// Coarse cells over `bounds`, all groups together; `reach` [m]: cut-off and skin.
   void build(const Bounds<Dim>& bounds, const geometry::Box<Dim>& box, double reach) {
-    cells_ = Cells<Dim>(2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach, 1e6);
+    cells_ = Cells<Dim>(
+        2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach, 1e6);
     periodic_ = box.periodic;
     moved_.assign(cells_.total(), {});
     used_.assign(cells_.total(), 0.0);
@@ -72,9 +73,7 @@ class RelativeMotion {
     return result;
   }
   [[nodiscard]] double used(std::uint32_t cell) const noexcept { return used_[cell]; }
-  [[nodiscard]] std::size_t bytes() const noexcept {
-    return moved_.capacity() * sizeof(Bounds<Dim>) + used_.capacity() * sizeof(double);
-  }
+  [[nodiscard]] std::size_t bytes() const noexcept { return moved_.capacity() * sizeof(Bounds<Dim>) + used_.capacity() * sizeof(double); }
 
  private:
   [[nodiscard]] double largest_around(std::size_t cell) const noexcept {

@@ -18,9 +18,11 @@ class SpatialOrder {
  public:
   /// `particles_per_cell`: where there are any, 0 unknown.
   void build(std::span<const Vector<Dim>> positions, double cell_width, double particles_per_cell) {
-    const Cells<Dim> cells(positions.size(), [&](std::size_t k) -> const Vector<Dim>& { return positions[k]; }, cell_width);
+    const Cells<Dim> cells(
+        positions.size(), [&](std::size_t k) -> const Vector<Dim>& { return positions[k]; }, cell_width);
     if (!(particles_per_cell > 0.0)) particles_per_cell = static_cast<double>(positions.size()) / static_cast<double>(cells.total());
-    const double side = std::pow(static_cast<double>(Blocks::rows_wanted(positions.size())) / std::max(particles_per_cell, 1e-3), 1.0 / Dim);
+    const double side =
+        std::pow(static_cast<double>(Blocks::rows_wanted(positions.size())) / std::max(particles_per_cell, 1e-3), 1.0 / Dim);
     // The place of a cell in the order is a sum of one number per direction.
     std::array<int, Dim> blocks, width;
     int cells_per_block = 1, number_of_blocks = 1;
@@ -34,15 +36,13 @@ class SpatialOrder {
     for (std::size_t d = 0; d < Dim; ++d) {
       place_[d].resize(static_cast<std::size_t>(cells.count[d]));
       for (int c = 0; c < cells.count[d]; ++c)
-        place_[d][static_cast<std::size_t>(c)] =
-            static_cast<std::size_t>(c / width[d] * block_stride + c % width[d] * cell_stride);
+        place_[d][static_cast<std::size_t>(c)] = static_cast<std::size_t>(c / width[d] * block_stride + c % width[d] * cell_stride);
       block_stride *= blocks[d];
       cell_stride *= width[d];
     }
     sort_.sort(positions.size(), static_cast<std::size_t>(number_of_blocks * cells_per_block), [&](std::size_t k) {
       std::size_t place = 0;
-      for (int d = 0; d < Dim; ++d)
-        place += place_[static_cast<std::size_t>(d)][static_cast<std::size_t>(cells.along(positions[k][d], d))];
+      for (int d = 0; d < Dim; ++d) place += place_[static_cast<std::size_t>(d)][static_cast<std::size_t>(cells.along(positions[k][d], d))];
       return place;
     });
     bounds_.assign(1, 0);

@@ -49,12 +49,13 @@ class Columns<Dim, Fields<Field...>> {
   static void resize_one(AlignedVector<V>& values, std::size_t count) {
     const std::size_t old = std::min(values.size(), count);
     values.resize(count);
-    for_each_range(Ranges(count), [&values, old](std::size_t, std::size_t first, std::size_t last) {  // each thread places its rows in memory
-      if (last <= old) return;
-      first = std::max(first, old);
-      if constexpr (std::is_same_v<V, double>) std::fill(values.data() + first, values.data() + last, 0.0);
-      else std::fill(values.data() + first, values.data() + last, V::Zero());
-    });
+    for_each_range(Ranges(count),
+                   [&values, old](std::size_t, std::size_t first, std::size_t last) {  // each thread places its rows in memory
+                     if (last <= old) return;
+                     first = std::max(first, old);
+                     if constexpr (std::is_same_v<V, double>) std::fill(values.data() + first, values.data() + last, 0.0);
+                     else std::fill(values.data() + first, values.data() + last, V::Zero());
+                   });
   }
   template <class V>
   static void permute_one(AlignedVector<V>& values, std::span<const std::uint32_t> order, const Ranges& ranges, double* scratch) {

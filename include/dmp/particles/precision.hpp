@@ -23,16 +23,17 @@ struct Double {
     [[nodiscard]] double write(double x, int) const noexcept { return x; }
     [[nodiscard]] double read(double x, int) const noexcept { return x; }
     template <class T>
-    [[nodiscard, gnu::always_inline]] Components<Dim, T> separation(const Components<Dim, T>& i, const Components<Dim, T>& j) const noexcept {
+    [[nodiscard, gnu::always_inline]] Components<Dim, T> separation(const Components<Dim, T>& i,
+                                                                    const Components<Dim, T>& j) const noexcept {
       return i - j;
     }
   };
 };
 
-/// Records in single precision, half the memory and twice the lanes. Positions are whole numbers of 2^-30 of a frame somewhat more than twice
-/// as long as the scene, so that the separation of neighbours does not depend on where they are: its error is 2^-24 of itself, and 2^-30 of
-/// the frame. A particle far outside of all others makes the frame long and the rest coarse. Laws get about seven digits; what that means for
-/// a flow, examples/taylor_green tells.
+/// Records in single precision, half the memory and twice the lanes. Positions are whole numbers of 2^-30 of a frame somewhat more than
+/// twice as long as the scene, so that the separation of neighbours does not depend on where they are: its error is 2^-24 of itself, and
+/// 2^-30 of the frame. A particle far outside of all others makes the frame long and the rest coarse. Laws get about seven digits; what
+/// that means for a flow, examples/taylor_green tells.
 struct Single {
   using Real = float;
   static constexpr std::string_view name = "single";
@@ -50,9 +51,12 @@ struct Single {
       const double steps = std::fmin((x - centre[d]) * per_metre, 0x1.8p30);  // what is far away lies beyond all particles
       return std::bit_cast<float>(static_cast<std::int32_t>(std::lrint(steps)));
     }
-    [[nodiscard]] double read(float x, int d) const noexcept { return centre[d] + metres * static_cast<double>(std::bit_cast<std::int32_t>(x)); }
+    [[nodiscard]] double read(float x, int d) const noexcept {
+      return centre[d] + metres * static_cast<double>(std::bit_cast<std::int32_t>(x));
+    }
     template <class T>
-    [[nodiscard, gnu::always_inline]] Components<Dim, T> separation(const Components<Dim, T>& i, const Components<Dim, T>& j) const noexcept {
+    [[nodiscard, gnu::always_inline]] Components<Dim, T> separation(const Components<Dim, T>& i,
+                                                                    const Components<Dim, T>& j) const noexcept {
       Components<Dim, T> result;
       unrolled<Dim>([&](auto d) __attribute__((always_inline)) { result[d] = T::of_difference(i[d], j[d]) * T(metres); });
       return result;

@@ -181,7 +181,8 @@ struct Compose {
       has_pairs || has_bonds,
       unite<Fields<field::Position>, only_if<(OfItem<Tag, Item>::uses_velocity || ...), field::Velocity>, subtract<reads, constants>>,
       Fields<>>;
-  using type = Layout<columns, state, rates, record, constants, derived, writes, has_pairs, has_bonds, has_substeps, Mobility::evolves && (has_bonds || (acts_within<Tag, Item> || ...))>;
+  using type = Layout<columns, state, rates, record, constants, derived, writes, has_pairs, has_bonds, has_substeps,
+                      Mobility::evolves && (has_bonds || (acts_within<Tag, Item> || ...))>;
 };
 
 }  // namespace detail

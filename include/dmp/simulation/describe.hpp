@@ -10,7 +10,7 @@ namespace dmp::simulation {
 /// Bytes that a scene holds per particle: columns, ids, records, sums, ghosts, cell grid, lists, and what sorting needs.
 template <class Scene>
 [[nodiscard]] double bytes_per_particle(const Scene& scene) {
-  double bytes = 0.0;
+  auto bytes = static_cast<double>(scene.engine().bytes());
   scene.engine().for_each_group([&bytes](const auto& g) {
     using G = std::remove_cvref_t<decltype(g)>;
     bytes += static_cast<double>(g.size() * (G::Columns::bytes_per_particle + sizeof(std::uint32_t)));

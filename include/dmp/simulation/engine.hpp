@@ -1,10 +1,8 @@
 #pragma once
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 #include <dmp/core/threads.hpp>
 #include <dmp/simulation/forces.hpp>
 
@@ -30,9 +28,7 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
 
   /// Accelerations and rates from the present state, e.g. before the first step; `time` [s] as forcings see it.
   void evaluate(double time) {
-    for_each_group([&](auto& g) {
-      for_each_particle(g, [&](std::size_t i) { follow_motion(g, i, time); });
-    });
+    for_each_group([&](auto& g) { for_each_particle(g, [&](std::size_t i) { follow_motion(g, i, time); }); });
     this->build_lists(true);
     this->pack_all(0.0);
     if constexpr (has_substeps) this->fast_forces();
@@ -49,7 +45,7 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
   [[nodiscard]] bool begin_step(double dt, double time) {
     if constexpr (has_substeps) begin_with_substeps(dt, time);
     else for_each_group([&](auto& g) { pass(g, 0.0, dt, time); });
-    return lists_are_worn();
+    return this->lists_are_worn();
   }
   /// Second part: forces at the new positions. `fresh_lists`: they were built since the step began.
   void forces(double dt, double time, bool fresh_lists) {
@@ -67,7 +63,7 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
       return begin_step(dt, time);
     } else {
       for_each_group([&](auto& g) { pass(g, last_dt, dt, time); });
-      return lists_are_worn();
+      return this->lists_are_worn();
     }
   }
 
@@ -136,43 +132,6 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
       Integrator::end_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
     });
   }
-  /// Whether neighbours have moved relative to each other by more than the skin, or all of them too far; and how far the lists must be read until then.
-  [[nodiscard]] bool lists_are_worn() {
-    if constexpr (has_pairs) {
-      this->relative_motion_.start();
-      for_each_group_in_pairs([this](auto& g) {
-        for (const auto& runs : g.runs) this->relative_motion_.add(runs);
-      });
-      if (!(this->relative_motion_.finish() <= this->skin_)) return true;
-      if (this->relative_motion_.farthest() > this->longest_cutoff_) return true;  // time to go back into the periodic box
-      for_each_group_in_pairs([this](auto& g) {
-        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t, std::size_t) {
-          std::size_t block = g.blocks.first_block(range);
-          double used = 0.0;
-          const auto close_block = [&] {
-            constexpr auto levels = static_cast<double>(neighbours::PairList::levels);
-            const double level = this->skin_ > 0.0 ? std::ceil(used / this->skin_ * levels) - 1.0 : levels - 1.0;
-            g.level[block++] = static_cast<std::uint8_t>(std::clamp(level, 0.0, levels - 1.0));
-            used = 0.0;
-          };
-          for (const auto& run : g.runs[range]) {
-            while (run.first >= g.blocks.end(block)) close_block();
-            used = std::max(used, this->relative_motion_.used(run.cell));
-          }
-          while (block < g.blocks.first_block(range + 1)) close_block();
-        });
-      });
-    }
-    return false;
-  }
-  template <class Function>
-  void for_each_group_in_pairs(Function&& function) {
-    for_each_group([&](auto& g) {
-      using G = std::remove_cvref_t<decltype(g)>;
-      if constexpr (LayoutOf<G>::has_pairs) function(g);
-    });
-  }
-
   /// Puts a particle of a driven group where its motion has it at `time`; nothing for other groups.
   template <class G>
   void follow_motion(G& g, std::size_t i, double time) {
@@ -215,9 +174,8 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
     for_each_group([&](auto& g) {
       using G = std::remove_cvref_t<decltype(g)>;
       if constexpr (LayoutOf<G>::has_substeps && LayoutOf<G>::has_pairs)
-        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t first, std::size_t last) {
-          follow(g, range, first, last, [](std::size_t) {});
-        });
+        for_each_range(g.blocks.ranges(),
+                       [&](std::size_t range, std::size_t first, std::size_t last) { follow(g, range, first, last, [](std::size_t) {}); });
     });
   }
   template <class Function>

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 #include <dmp/integrator/concept.hpp>
-#include <dmp/simulation/model.hpp>
+#include <dmp/simulation/lists.hpp>
 #include <dmp/sweep/bonds.hpp>
 #include <dmp/sweep/gather.hpp>
 
@@ -13,8 +13,8 @@ namespace dmp::simulation {
 
 /// What a model's laws say of its present state: records of all particles, then sums over pairs and bonds, accelerations and rates.
 template <int Dim, class Integrator, class Precision, class... Item>
-class Forces : public Model<Dim, Integrator::keeps_rates, Precision, Item...> {
-  using Base = Model<Dim, Integrator::keeps_rates, Precision, Item...>;
+class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
+  using Base = Lists<Dim, Integrator::keeps_rates, Precision, Item...>;
 
  public:
   using Base::Base, Base::group, Base::for_each_group, Base::for_each_item;
@@ -194,7 +194,8 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Precision, Item...> {
   }
   /// Adds the force of the bonds of particle i to its row of sums, and the reactions to the rows of its partners if they are of this group.
   template <class Source, class G, class Add, class Law>
-  [[gnu::always_inline]] void bonds(const G& g, std::size_t i, const neighbours::BondList& list, const Add& add, const Law& law) const noexcept {
+  [[gnu::always_inline]] void bonds(const G& g, std::size_t i, const neighbours::BondList& list, const Add& add,
+                                    const Law& law) const noexcept {
     const auto& source = this->template group<Source>();
     using Partners = typename std::remove_cvref_t<decltype(source)>::Records;
     const sweep::BondRecords records{g.records.data() + i * G::Records::stride, source.records.data(), Partners::stride};
@@ -212,6 +213,7 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Precision, Item...> {
   template <bool Fast, class G>
   void gather(G& g, double time, double dt) {
     using C = LayoutOf<G>;
+    constexpr bool adds_up_in_memory = C::sums_in_memory && Precision::pairs_once;
     constexpr bool needed = mobile<G> || !std::is_same_v<typename C::rates, Fields<>>;
     if constexpr (needed)
       for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
@@ -224,7 +226,7 @@ class Forces : public Model<Dim, Integrator::keeps_rates, Precision, Item...> {
             View<Dim, Lanes, typename C::writes> sums;
             sweep::set_zero(sums);
             sum_items<Fast>(g, block, i, sums, add);
-            if constexpr (C::sums_in_memory && Precision::pairs_once) total = g.sums.take(i, sums);
+            if constexpr (adds_up_in_memory) total = g.sums.take(i, sums);
             else total = G::Sums::totals(sums);
           }
           if constexpr (mobile<G>) {

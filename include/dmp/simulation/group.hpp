@@ -29,7 +29,7 @@ template <int Dim>
 struct Neighbourhood<Dim, true> {
   neighbours::Ghosts<Dim> ghosts{};
   neighbours::CellGrid<Dim> grid{};
-  AlignedVector<Vector<Dim>> at_list_build{};  ///< positions when the neighbour lists were built
+  AlignedVector<Vector<Dim>> at_list_build{};             ///< positions when the neighbour lists were built
   std::vector<std::vector<neighbours::Run<Dim>>> runs{};  ///< of particles that were in one coarse cell then, per range of rows
   std::vector<std::uint8_t> level{};                      ///< of each block: how far its lists must be read (PairList)
 };
@@ -98,9 +98,7 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
   }
 
   /// Rows of `records`: the particles, then rows far away from everything (PairList), then the ghosts.
-  [[nodiscard]] std::size_t first_ghost() const noexcept {
-    return blocks.far_row(blocks.size());
-  }
+  [[nodiscard]] std::size_t first_ghost() const noexcept { return blocks.far_row(blocks.size()); }
   /// What others list of this group.
   [[nodiscard]] neighbours::PairList::Sources sources(bool for_itself) const noexcept {
     return {for_itself, static_cast<std::uint32_t>(size()), static_cast<std::uint32_t>(first_ghost()), this->ghosts.owner,

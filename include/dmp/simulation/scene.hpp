@@ -193,7 +193,9 @@ class Scene {
     prepared_ = true;
   }
   /// What a checkpoint must agree with: dimension, integrator, precision, groups, mobilities, columns.
-  [[nodiscard]] std::string signature() { return simulation::signature(Dim, std::string(Integrator::name) + ", " + std::string(Precision::name), views()); }
+  [[nodiscard]] std::string signature() {
+    return simulation::signature(Dim, std::string(Integrator::name) + ", " + std::string(Precision::name), views());
+  }
 
  private:
   static constexpr bool has_substeps = Engine<Dim, Integrator, Precision, Item...>::has_substeps;
@@ -352,7 +354,8 @@ class Scene {
 
 /// Composes a scene: a box, then groups, interactions, bonds, materials and forcings in any order.
 ///   auto flow = scene<integrator::ExtrapolatedVerlet>(box, group<Water>(...), interaction<Water, Water>(...), ...);
-/// Pair laws are evaluated in a precision::Double unless another Precision is named: scene<integrator::ExtrapolatedVerlet, precision::Single>(...).
+/// Pair laws are evaluated in a precision::Double unless another Precision is named: scene<integrator::ExtrapolatedVerlet,
+/// precision::Single>(...).
 template <class Integrator, class Precision = precision::Double, int Dim, class... Item>
 [[nodiscard]] auto scene(const geometry::Box<Dim>& box, const Item&... item) {
   return Scene<Dim, Integrator, Precision, Item...>(box, item...);

@@ -94,7 +94,8 @@ template <int Dim, bool Periodic, class React, class Law>
     Row<Dim> separation[width];
     Lanes squares[width], approaches[width];
     unrolled<width>([&](auto lane) __attribute__((always_inline)) {
-      const double* const partner = records.partners + static_cast<std::size_t>(bonds.partner[k + lane]) * static_cast<unsigned>(records.stride);
+      const double* const partner =
+          records.partners + static_cast<std::size_t>(bonds.partner[k + lane]) * static_cast<unsigned>(records.stride);
       auto& apart = separation[lane];
       apart = (own_position - Row<Dim>::load(partner)).alone();
       if constexpr (Periodic)

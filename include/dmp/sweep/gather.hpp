@@ -12,8 +12,8 @@ namespace dmp::sweep {
 /// The pack of numbers that sweeps in double work with.
 using Lanes = Pack<double, native_width<double>>;
 
-/// Sums before a sweep. `zero`: -0.0 where the first thing added is all there is, since x + -0.0 is x, which the compiler knows; x + 0.0 may
-/// not be (-0.0 + 0.0).
+/// Sums before a sweep. `zero`: -0.0 where the first thing added is all there is, since x + -0.0 is x, which the compiler knows; x + 0.0
+/// may not be (-0.0 + 0.0).
 template <int Dim, class T, class... Field>
 [[gnu::always_inline]] inline void set_zero(View<Dim, T, Fields<Field...>>& view, double zero = 0.0) noexcept {
   [[maybe_unused]] const auto one = [zero](auto& member) {
@@ -55,8 +55,8 @@ template <bool Velocity, int Dim, class T>
 /// the views of the particles index[0 .. width - 1]; the list fills whole packs. Laws come by value, and
 /// what the loop works on is its own, so that it stays in registers and what is constant is computed once.
 template <int Dim, class I, class Source, class Sums, class... Law>
-[[gnu::always_inline]] inline void sum_pairs(const I& particle, const Source source, std::span<const std::uint32_t> neighbours,
-                                             Sums& total, const Law... law) noexcept {
+[[gnu::always_inline]] inline void sum_pairs(const I& particle, const Source source, std::span<const std::uint32_t> neighbours, Sums& total,
+                                             const Law... law) noexcept {
   constexpr std::size_t width = std::remove_cvref_t<decltype(particle.position[0])>::width;
   const I i = particle;
   Sums sums = total;

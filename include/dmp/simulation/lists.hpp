@@ -1,0 +1,237 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+#include <dmp/core/require.hpp>
+#include <dmp/core/threads.hpp>
+#include <dmp/neighbours/pair_list.hpp>
+#include <dmp/neighbours/relative_motion.hpp>
+#include <dmp/neighbours/spatial_order.hpp>
+#include <dmp/simulation/model.hpp>
+
+namespace dmp::simulation {
+
+/// Who is near whom in a model: ghosts, the lists of its pairs, and when they are worn.
+template <int Dim, bool KeepsRates, class Precision, class... Item>
+class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
+  using Base = Model<Dim, KeepsRates, Precision, Item...>;
+
+ public:
+  using Base::for_each_group, Base::for_each_item, Base::has_pairs;
+
+  Lists(const geometry::Box<Dim>& box, const Item&... item) : Base(box, item...) {
+    for_each_item([this](const auto& active) {
+      if constexpr (is_interaction<std::remove_cvref_t<decltype(active.item)>>)
+        longest_cutoff_ = std::max(longest_cutoff_, active.item.cutoff());
+    });
+    skin_ = 0.2 * longest_cutoff_;  // least time of a step, see docs/performance.md
+  }
+
+  [[nodiscard]] double skin() const noexcept { return skin_; }
+  [[nodiscard]] double longest_cutoff() const noexcept { return longest_cutoff_; }
+  [[nodiscard]] std::uint64_t list_builds() const noexcept { return list_builds_; }
+  void set_skin(double skin) noexcept { skin_ = skin; }
+  /// Beside what groups and items hold: for sorting, and for knowing when lists are worn.
+  [[nodiscard]] std::size_t bytes() const noexcept { return order_.bytes() + relative_motion_.bytes(); }
+
+ protected:
+  using typename Base::Lanes;
+  template <class G>
+  using LayoutOf = typename Base::template LayoutOf<G>;
+  template <class G>
+  static constexpr bool evolves = Base::template evolves<G>;
+
+  /// Wraps positions into the periodic box, finds ghosts and neighbours; every so often, or if `sort`, sorts the particles in space first.
+  void find_neighbours(bool sort) {
+    builds_since_sort_ = sort || builds_since_sort_ + 1 >= builds_per_sort ? 0 : builds_since_sort_ + 1;
+    for_each_group([&](auto& g) { settle(g, builds_since_sort_ == 0); });
+    if constexpr (has_pairs) {
+      for_each_group([&](auto& g) { prepare_sources(g); });
+      for_each_item([&](auto& active) {
+        using I = std::remove_cvref_t<decltype(active.item)>;
+        if constexpr (is_interaction<I>) {
+          auto& a = this->template group<typename I::A>();
+          auto& b = this->template group<typename I::B>();
+          const double cutoff = active.item.cutoff();
+          list(a, b, active.of_a, active.excluded_of_a, cutoff);
+          if constexpr (!std::is_same_v<typename I::A, typename I::B>) list(b, a, active.of_b, active.excluded_of_b, cutoff);
+        }
+      });
+    }
+    for_each_item([&](auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_bonds<I>) {
+        auto& a = this->template group<typename I::A>();
+        auto& b = this->template group<typename I::B>();
+        mark_crossing(active.of_a, a, b);
+        mark_crossing(active.of_b, b, a);
+      }
+    });
+    for_each_group([&](auto& g) { divide(g); });
+    if constexpr (has_pairs) follow_from_here();
+    ++list_builds_;
+  }
+
+  /// Whether neighbours have moved relative to each other by more than the skin, or all of them too far; and how far the lists must be read
+  /// until then.
+  [[nodiscard]] bool lists_are_worn() {
+    if constexpr (has_pairs) {
+      relative_motion_.start();
+      for_each_group_in_pairs([this](auto& g) {
+        for (const auto& runs : g.runs) relative_motion_.add(runs);
+      });
+      if (!(relative_motion_.finish() <= skin_)) return true;
+      if (relative_motion_.farthest() > longest_cutoff_) return true;  // time to go back into the periodic box
+      for_each_group_in_pairs([this](auto& g) {
+        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t, std::size_t) {
+          std::size_t block = g.blocks.first_block(range);
+          double used = 0.0;
+          const auto close_block = [&] {
+            constexpr auto levels = static_cast<double>(neighbours::PairList::levels);
+            const double level = skin_ > 0.0 ? std::ceil(used / skin_ * levels) - 1.0 : levels - 1.0;
+            g.level[block++] = static_cast<std::uint8_t>(std::clamp(level, 0.0, levels - 1.0));
+            used = 0.0;
+          };
+          for (const auto& run : g.runs[range]) {
+            while (run.first >= g.blocks.end(block)) close_block();
+            used = std::max(used, relative_motion_.used(run.cell));
+          }
+          while (block < g.blocks.first_block(range + 1)) close_block();
+        });
+      });
+    }
+    return false;
+  }
+
+ private:
+  template <class Function>
+  void for_each_group_in_pairs(Function&& function) {
+    for_each_group([&](auto& g) {
+      using G = std::remove_cvref_t<decltype(g)>;
+      if constexpr (LayoutOf<G>::has_pairs) function(g);
+    });
+  }
+
+  template <class G>
+  void settle(G& g, bool sort) {  // positions into the box, particles into spatial order
+    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) g.positions()[i] = this->box_.wrap(g.positions()[i]);
+    });
+    if constexpr (LayoutOf<G>::has_pairs) {
+      if (G::Mobility::moves && sort && g.may_be_sorted) {
+        const double cell = 0.5 * (longest_cutoff_ + skin_);
+        order_.build(g.positions(), cell, g.spacing > 0.0 ? std::pow(cell / g.spacing, Dim) : 0.0);
+        g.blocks.set_bounds(order_.bounds());
+        // Records are packed anew after this: their memory is free, and takes one column at a time.
+        const std::size_t rows_for_a_column = g.size() * Dim * sizeof(double) / G::Records::bytes_per_particle() + 1;
+        g.records.resize(std::max(g.records.size(), rows_for_a_column));
+        g.columns.permute(order_.rows(), g.blocks.ranges(), reinterpret_cast<double*>(g.records.data()));
+        auto* const id = reinterpret_cast<std::uint32_t*>(g.records.data());
+        std::copy(g.id.begin(), g.id.end(), id);
+        for (std::size_t k = 0; k < g.size(); ++k) g.id[k] = id[order_.rows()[k]];
+      }
+    }
+  }
+
+  template <class G>
+  void prepare_sources(G& g) {  // ghosts and the grid in which others search
+    if constexpr (LayoutOf<G>::has_pairs) {
+      const double reach = longest_cutoff_ + skin_;
+      for (const double period : this->periods_)
+        if (period > 0.0 && period <= reach)
+          throw ParameterError("scene: a periodic box must be longer than support radius and skin (" + to_text(reach) + " m), got " +
+                               to_text(period));
+      g.ghosts.build(g.positions(), this->box_, reach);
+      g.grid.build(
+          g.size() + g.ghosts.size(),
+          [&g](std::size_t k) -> Vector<Dim> {
+            if (k < g.size()) return g.positions()[k];
+            return g.positions()[g.ghosts.owner[k - g.size()]] + g.ghosts.shift[k - g.size()];
+          },
+          0.5 * reach);
+    }
+  }
+
+  template <class A, class B>
+  void list(const A& of, const B& sources, neighbours::PairList& pairs, const neighbours::Exclusions& excluded, double cutoff) {
+    if constexpr (evolves<A>)
+      pairs.template build<Dim>(of.blocks, of.positions(), sources.grid, cutoff, skin_, sources.sources(std::is_same_v<A, B>), excluded,
+                                Lanes::width);
+  }
+
+  template <class A, class B>
+  void mark_crossing(neighbours::BondList& bonds, const A& own, const B& partners) {
+    if (bonds.empty() || std::find(this->box_.periodic.begin(), this->box_.periodic.end(), true) == this->box_.periodic.end()) return;
+    bonds.template mark_crossing<Dim>(own.positions(), partners.positions(), this->box_);
+  }
+
+  /// Shares the blocks of a group among the threads by what a sweep over them costs: entries of lists, and about ten more per particle.
+  template <class G>
+  void divide(G& g) {
+    if constexpr (evolves<G>)
+      g.blocks.divide([&](std::size_t block) {
+        double cost = 10.0 * static_cast<double>(g.blocks.end(block) - g.blocks.begin(block));
+        for_each_item([&](const auto& active) {
+          using I = std::remove_cvref_t<decltype(active.item)>;
+          if constexpr (is_interaction<I> || is_bonds<I>) {
+            if constexpr (std::is_same_v<typename G::Tag, typename I::A>) cost += active.of_a.entries(g.blocks, block);
+            else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) cost += active.of_b.entries(g.blocks, block);
+          }
+        });
+        return cost;
+      });
+  }
+
+  /// The present positions are what relative motion is counted from.
+  void follow_from_here() {
+    neighbours::Bounds<Dim> bounds;
+    for_each_group([&](auto& g) {
+      if constexpr (LayoutOf<decltype(g)>::has_pairs)
+        bounds.add(merge_ranges(
+            g.blocks.ranges(), neighbours::Bounds<Dim>{},
+            [&g](std::size_t first, std::size_t last) {
+              neighbours::Bounds<Dim> part;
+              for (std::size_t i = first; i < last; ++i) part.add(g.positions()[i]);
+              return part;
+            },
+            [](neighbours::Bounds<Dim> a, const neighbours::Bounds<Dim>& b) {
+              a.add(b);
+              return a;
+            }));
+    });
+    const double reach = longest_cutoff_ + skin_;
+    relative_motion_.build(bounds, this->box_, reach);
+    const double extent = 2.0 * ((bounds.upper - bounds.lower).maxCoeff() + 4.0 * reach);  // room for ghosts, and for moving along
+    for_each_group([&](auto& g) { g.records.set_frame({0.5 * (bounds.lower + bounds.upper), extent}); });
+    for_each_group([&](auto& g) {
+      using G = std::remove_cvref_t<decltype(g)>;
+      if constexpr (LayoutOf<G>::has_pairs) {
+        if constexpr (G::Mobility::moves) g.at_list_build = g.positions();
+        g.runs.resize(g.blocks.ranges().size());
+        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t, std::size_t) {
+          auto& runs = g.runs[range];
+          runs.clear();
+          for (std::size_t block = g.blocks.first_block(range); block < g.blocks.first_block(range + 1); ++block)
+            for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i)
+              if (const std::uint32_t cell = relative_motion_.cell_of(g.positions()[i]);
+                  i == g.blocks.begin(block) || cell != runs.back().cell)
+                runs.push_back({static_cast<std::uint32_t>(i), cell});
+        });
+        g.level.assign(g.blocks.size(), 0);
+      }
+    });
+  }
+
+  double longest_cutoff_ = 0.0, skin_ = 0.0;
+  neighbours::RelativeMotion<Dim> relative_motion_;  // since the lists were built
+  neighbours::SpatialOrder<Dim> order_;
+  static constexpr int builds_per_sort = 8;  // the order ages far more slowly than the lists
+  int builds_since_sort_ = 0;
+  std::uint64_t list_builds_ = 0;
+};
+
+}  // namespace dmp::simulation
