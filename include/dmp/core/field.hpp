@@ -156,6 +156,44 @@ struct SpecificEnergy {
   };
   static constexpr auto& of(auto& slots) { return slots.specific_energy; }
 };
+struct SpecificEnergyRate {
+  using integrates = SpecificEnergy;
+  static constexpr std::string_view name = "specific_energy_rate", unit = "W/kg";
+  static constexpr bool is_vector = false;
+  template <int Dim, class T>
+  struct Slot {
+    T specific_energy_rate;
+  };
+  static constexpr auto& of(auto& slots) { return slots.specific_energy_rate; }
+};
+struct SoundSpeed {
+  static constexpr std::string_view name = "sound_speed", unit = "m/s";
+  static constexpr bool is_vector = false;
+  template <int Dim, class T>
+  struct Slot {
+    T sound_speed;
+  };
+  static constexpr auto& of(auto& slots) { return slots.sound_speed; }
+};
+struct ThermalConductivity {
+  static constexpr std::string_view name = "thermal_conductivity", unit = "W/(m K)";
+  static constexpr bool is_vector = false;
+  template <int Dim, class T>
+  struct Slot {
+    T thermal_conductivity;
+  };
+  static constexpr auto& of(auto& slots) { return slots.thermal_conductivity; }
+};
+/// sqrt(2 D:D), D = (grad v + grad v^T)/2.
+struct ShearRate {
+  static constexpr std::string_view name = "shear_rate", unit = "1/s";
+  static constexpr bool is_vector = false;
+  template <int Dim, class T>
+  struct Slot {
+    T shear_rate;
+  };
+  static constexpr auto& of(auto& slots) { return slots.shear_rate; }
+};
 
 }  // namespace field
 
