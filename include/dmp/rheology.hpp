@@ -1,6 +1,7 @@
 // include/dmp/rheology.hpp - dynamic viscosity of a group: constant, over the temperature, or over the shear rate. Contracts: rheology/concept.hpp.
 #pragma once
 #include <dmp/rheology/andrade.hpp>            // Liquid over temperature, four parameters.
+#include <dmp/rheology/any.hpp>                // A law of the temperature by its name, at run time.
 #include <dmp/rheology/arrhenius.hpp>          // Liquid over temperature, two parameters.
 #include <dmp/rheology/carreau.hpp>            // Over shear rate between two plateaus, smooth at rest: polymers, blood.
 #include <dmp/rheology/clamped.hpp>            // A law of the temperature that goes on with the ends of its range.
