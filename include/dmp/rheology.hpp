@@ -1,4 +1,4 @@
-// include/dmp/rheology.hpp - dynamic viscosity of a group: constant, over the temperature, or over the shear rate. Contracts: rheology/concept.hpp.
+// include/dmp/rheology.hpp - dynamic viscosity: constant, over temperature, or over shear rate. Contracts: rheology/concept.hpp.
 #pragma once
 #include <dmp/rheology/andrade.hpp>            // Liquid over temperature, four parameters.
 #include <dmp/rheology/any.hpp>                // A law of the temperature by its name, at run time.
