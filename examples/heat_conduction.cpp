@@ -1,8 +1,8 @@
 // Heat conduction between two slabs of unequal conductivity: the steady state, the transient of two half-spaces, and one phase (10 s; 1 s
-// with --quick). Errors of the temperature against the exact solutions, with the harmonic mean of the conductivities and with the arithmetic
-// one. Integrated as LAMMPS' fix sph does it: heat has no sound, which needs the extrapolated state and a step a quarter as long; at 10 rows
-// its error of first order cancels a fifth of the error in space. Cases HX-1, HX-2, HX-3.
-// P. W. Cleary, J. J. Monaghan, J. Comput. Phys. 148 (1999) 227-264, doi:10.1006/jcph.1998.6118.
+// with --quick). Errors of the temperature against the exact solutions, with the harmonic mean of the conductivities and with the
+// arithmetic one. Integrated as LAMMPS' fix sph does it: heat has no sound, which needs the extrapolated state and a step a quarter as
+// long; at 10 rows its error of first order cancels a fifth of the error in space. Cases HX-1, HX-2, HX-3. P. W. Cleary, J. J. Monaghan, J.
+// Comput. Phys. 148 (1999) 227-264, doi:10.1006/jcph.1998.6118.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,8 +33,9 @@ struct Solid {
 /// Temperature, constant density and conductivity of a group; zero energy is 0 K above the reference of 1000 K, so that all are positive.
 template <class... Group>
 auto properties(const Solid& solid) {
-  return material<Group...>(thermal::Linear{.specific_heat_capacity = solid.specific_heat, .reference_temperature = 1000.0, .reference_energy = 0.0},
-                            eos::ConstantDensity{.density = solid.density}, thermal::Conductivity{.thermal_conductivity = solid.conductivity});
+  return material<Group...>(
+      thermal::Linear{.specific_heat_capacity = solid.specific_heat, .reference_temperature = 1000.0, .reference_energy = 0.0},
+      eos::ConstantDensity{.density = solid.density}, thermal::Conductivity{.thermal_conductivity = solid.conductivity});
 }
 constexpr int rows_across = 6;  // of the periodic strip
 
@@ -76,7 +77,8 @@ void two_slabs(int rows, const io::OutputFolder& folder, example::Result& result
   const geometry::Box<2> box{.lower = {-end, 0.0}, .upper = {end, height}, .periodic = {false, true}};
   const double mass = 1000.0 * spacing * spacing;
   auto scene = simulation::scene<integrator::LammpsVerlet>(
-      box, group<Left>("left", Stationary{}, strip(spacing, -rows, 0), mass), group<Right>("right", Stationary{}, strip(spacing, 0, rows), mass),
+      box, group<Left>("left", Stationary{}, strip(spacing, -rows, 0), mass),
+      group<Right>("right", Stationary{}, strip(spacing, 0, rows), mass),
       group<HotFace>("hot_face", Frozen<2>{}, strip(spacing, -rows - 3, -rows), mass),
       group<ColdFace>("cold_face", Frozen<2>{}, strip(spacing, rows, rows + 3), mass), interaction<Left, Left>(conduction),
       interaction<Right, Right>(conduction), interaction<Left, Right>(conduction), interaction<Left, HotFace>(conduction),
@@ -88,7 +90,9 @@ void two_slabs(int rows, const io::OutputFolder& folder, example::Result& result
   const auto report = scene.run({.until = 20.0 * relaxation});
 
   const double interface_temperature = left.conductivity / (left.conductivity + right.conductivity);
-  const auto exact = [&](double x) { return x < 0.0 ? interface_temperature - x * (1.0 - interface_temperature) : interface_temperature * (1.0 - x); };
+  const auto exact = [&](double x) {
+    return x < 0.0 ? interface_temperature - x * (1.0 - interface_temperature) : interface_temperature * (1.0 - x);
+  };
   Errors errors;
   const std::string name = "slabs_" + std::string(mean_name<Mean>) + "_" + std::to_string(rows);
   io::CsvTable table(folder / (name + ".csv"), {{"x", "m"}, {"T", "K"}, {"exact T", "K"}});
@@ -154,7 +158,7 @@ void one_phase(const io::OutputFolder& folder, example::Result& result) {
   const auto points = geometry::fill(geometry::Cubic<2>{.spacing = spacing}, geometry::Cuboid<2>{.lower = {0.0, 0.0}, .upper = {1.0, 0.1}});
   const geometry::Box<2> box{.lower = {0.0, 0.0}, .upper = {1.0, 0.1}, .periodic = {false, true}};
   auto scene = simulation::scene<integrator::LammpsVerlet>(box, group<Left>("bar", Stationary{}, points, solid.density * spacing * spacing),
-                                                                 interaction<Left, Left>(conduction), properties<Left>(solid));
+                                                           interaction<Left, Left>(conduction), properties<Left>(solid));
   auto& bar = scene.group<Left>();
   bar.set<field::SpecificEnergy>([](const auto& x) { return x[0] < 0.5 ? 1.0 : 2.0; });
   const auto report = scene.run({.until = 160 * 0.025, .time_step = 0.025});
@@ -203,5 +207,6 @@ int run(const example::Options& options) {
 
 int main(int argc, char** argv) {
   return example::guarded("heat_conduction", run,
-                          example::options(argc, argv, "heat_conduction", "Heat conduction inside and between phases against exact solutions (HX-1, HX-2, HX-3).", 10));
+                          example::options(argc, argv, "heat_conduction",
+                                           "Heat conduction inside and between phases against exact solutions (HX-1, HX-2, HX-3).", 10));
 }
