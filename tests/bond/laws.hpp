@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <type_traits>
 #include "support/compare.hpp"
 #include "support/dual.hpp"
 #include "support/particles.hpp"
@@ -16,11 +17,24 @@ template <class B, class T>
   else return dmp::bond::Stretch<T>{length, rest_length};
 }
 
+/// The same; a law with memory sees a bond that has suddenly been stretched from its rest length.
+template <class B, class T>
+[[nodiscard]] auto bond_of(const B& law, const T& length, const T& rest_length, const T& length_rate) {
+  const auto stretch = stretch_of<B>(length, rest_length, length_rate);
+  if constexpr (dmp::bond::HasMemory<B>) {
+    dmp::bond::Remembering<std::remove_const_t<decltype(stretch)>, T> bond{stretch, length - rest_length, T(0.0)};
+    bond.memory = law.memory_after(0.0)(bond);
+    return bond;
+  } else {
+    return stretch;
+  }
+}
+
 /// Force on i of the bond between i and j: -tension n_ij.
 template <int Dim, class B>
 [[nodiscard]] dmp::Components<Dim, double> bond_force(const B& law, const Particle<Dim>& i, const Particle<Dim>& j, double rest_length) {
   const auto pair = pair_of<Dim>(i, j);
-  const double tension = law.tension(stretch_of<B>(pair.distance, rest_length, pair.approach / pair.distance));
+  const double tension = law.tension(bond_of(law, pair.distance, rest_length, pair.approach / pair.distance));
   return (-tension / pair.distance) * pair.separation;
 }
 
@@ -37,10 +51,10 @@ void check_bond_laws(const B& law) {
   const double stiffness = law.largest_stiffness();
   CAPTURE(stiffness);
   const auto tension = [&](const auto& r) {
-    return law.tension(test::stretch_of<B>(r, std::decay_t<decltype(r)>(rest), std::decay_t<decltype(r)>(0.0)));
+    return law.tension(test::bond_of(law, r, std::decay_t<decltype(r)>(rest), std::decay_t<decltype(r)>(0.0)));
   };
   const auto energy = [&](const auto& r) {
-    return law.energy(test::stretch_of<B>(r, std::decay_t<decltype(r)>(rest), std::decay_t<decltype(r)>(0.0)));
+    return law.energy(test::bond_of(law, r, std::decay_t<decltype(r)>(rest), std::decay_t<decltype(r)>(0.0)));
   };
 
   CHECK(tension(rest) == 0.0);
@@ -61,11 +75,34 @@ void check_bond_laws(const B& law) {
     const double damping = law.largest_damping();
     for (const double rate : {-10.0, -1e-3, 0.0, 1e-3, 10.0})
       for (const double r : {0.0, rest, 2.0 * rest}) {
-        const double drag = law.tension(test::stretch_of<B>(r, rest, rate)) - tension(r);
+        const double drag = law.tension(test::bond_of(law, r, rest, rate)) - tension(r);
         const double rounding = 1e-14 * (std::fabs(tension(r)) + std::fabs(damping * rate));
         CHECK(drag * rate >= -rounding * std::fabs(rate));
         CHECK(std::fabs(drag) <= damping * std::fabs(rate) + rounding);
       }
+  }
+
+  if constexpr (dmp::bond::HasMemory<B>) {
+    const auto held = test::bond_of(law, 1.5 * rest, rest, 0.0);
+    auto later = held;
+    later.length_change = 0.0;
+    CHECK(law.memory_after(0.0)(later) == held.memory);  // nothing happens in no time
+    double before = law.energy(held);
+    for (const double dt : {1e-300, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e30}) {  // a bond that is held gives off energy
+      later.memory = law.memory_after(dt)(later);
+      CHECK(std::isfinite(later.memory));
+      CHECK(law.energy(later) <= before);
+      before = law.energy(later);
+    }
+    const auto after = [&](const auto& x) {
+      using T = std::decay_t<decltype(x)>;
+      auto bond = test::bond_of(law, x, T(rest), x);
+      bond.length_change = x * x - 1.0;
+      return law.memory_after(0.3)(bond);
+    };
+    const auto lengths = test::evenly(0.0, 3.0 * rest, 256);
+    CHECK(test::lane_error<double, dmp::native_width<double>>(after, lengths) < 1e-14);
+    CHECK(test::lane_error<float, dmp::native_width<float>>(after, lengths) < 1e-5);
   }
 
   // One bond in space: any pair, any frame, any rigid motion.
@@ -107,7 +144,7 @@ void check_bond_laws(const B& law) {
   }
 
   const auto lengths = test::evenly(0.0, 3.0 * rest, 256);
-  const auto moving = [&](const auto& r) { return law.tension(test::stretch_of<B>(r, std::decay_t<decltype(r)>(rest), r)); };
+  const auto moving = [&](const auto& r) { return law.tension(test::bond_of(law, r, std::decay_t<decltype(r)>(rest), r)); };
   CHECK(test::lane_error<double, dmp::native_width<double>>(moving, lengths) < 1e-14);
   CHECK(test::lane_error<double, dmp::native_width<double>>(energy, lengths) < 1e-14);
   CHECK(test::lane_error<float, dmp::native_width<float>>(moving, lengths) < 1e-5);

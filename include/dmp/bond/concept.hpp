@@ -14,22 +14,39 @@ template <class T>
 struct MovingStretch : Stretch<T> {
   T length_rate;  ///< dr/dt [m/s], > 0 while the bond lengthens
 };
+/// What a law with memory sees beside one of the two.
+template <class Seen, class T>
+struct Remembering : Seen {
+  T length_change;  ///< [m], by which the bond has lengthened over the step
+  T memory;         ///< a number of the law's own, such as the force of a branch [N]; 0 at first
+};
 
 template <class B>
 concept UsesVelocity = requires(const B law) {
   { law.largest_damping() } -> std::convertible_to<double>;
 };
+/// Only a law that states `memory_after` is compiled into a loop that loads and stores a memory.
+template <class B>
+concept HasMemory = requires(const B law, double dt) {
+  law.memory_after(dt);
+};
 
 namespace detail {
 template <class B>
-using State = std::conditional_t<UsesVelocity<B>, MovingStretch<double>, Stretch<double>>;
+using Seen = std::conditional_t<UsesVelocity<B>, MovingStretch<double>, Stretch<double>>;
+template <class B>
+using State = std::conditional_t<HasMemory<B>, Remembering<Seen<B>, double>, Seen<B>>;
 }  // namespace detail
 
 /// Contract of a bond law.
 ///   tension(bond)        [N], > 0 pulls the ends together; the force on i is -tension n_ij
-///   energy(bond)         [J], stored (elastic) energy, of which the elastic tension is the derivative; runs do without, conformance does
-///   not largest_stiffness()  [N/m], largest dT/dr, for the time step largest_damping()    [N s/m], largest dT/d(dr/dt), for the time step;
-///   only of a law that uses `length_rate`
+///   energy(bond)         [J], stored (elastic) energy, of which the elastic tension is the derivative; only conformance asks for it
+///   largest_stiffness()  [N/m], largest dT/dr, for the time step
+///   largest_damping()    [N s/m], largest dT/d(dr/dt), for the time step; only of a law that uses `length_rate`
+///   memory_after(dt)     only of a law with one number of memory per bond: a function of the bond that gives the memory at the end of a
+///                        step of dt [s] from that at its beginning and `length_change`. The function is asked once per bond and step,
+///                        before the tension, which sees the new memory; what depends on dt alone is computed outside of it, once.
+///                        dt = 0 is a sudden change of length, and if there is none the memory stays as it is.
 template <class B>
 concept BondPotential = std::is_trivially_copyable_v<B> && requires(const B law, const detail::State<B> bond) {
   { law.tension(bond) } -> std::same_as<double>;
@@ -50,6 +67,12 @@ consteval bool explain_bond_potential() {
         { b.largest_stiffness() } -> std::convertible_to<double>;
       },
       "dmp: not a BondPotential: no `double largest_stiffness() const` [N/m], which bounds the time step");
+  if constexpr (HasMemory<B>)
+    static_assert(
+        requires(const B b, const State s, double dt) {
+          { b.memory_after(dt)(s) } -> std::same_as<double>;
+        },
+        "dmp: not a BondPotential: `memory_after(dt)` gives no function `T (const Bond& bond)`, the memory at the end of a step of dt [s]");
   return BondPotential<B>;
 }
 

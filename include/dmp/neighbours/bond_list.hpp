@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 #include <dmp/core/require.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/geometry/box.hpp>
+#include <dmp/particles/view.hpp>
 
 namespace dmp::neighbours {
 
@@ -107,6 +109,26 @@ class BondList {
       }
   }
 
+  /// Gives each bond a memory, 0 now, and the length it has now. Where a bond is listed at both ends, both remember the same.
+  template <int Dim>
+  void remember(std::span<const Vector<Dim>> own, std::span<const Vector<Dim>> partners, const geometry::Box<Dim>& box) {
+    memory_.assign(partner_.size(), 0.0);
+    length_.assign(partner_.size(), 0.0);
+    for (std::size_t i = 0; i + 1 < offset_.size(); ++i)
+      for (std::uint32_t k = offset_[i]; k < offset_[i + 1]; ++k)
+        length_[k] = minimum_image<Dim>(own[i] - partners[partner_[k]], box).norm();
+  }
+  /// What the entries of particle i remember, as `of(i)` has them: a number, and the length of the bond when it was last looked at [m].
+  struct Memory {
+    double* memory;
+    double* length;
+  };
+  [[nodiscard]] Memory memory_of(std::size_t i) noexcept { return {memory_.data() + offset_[i], length_.data() + offset_[i]}; }
+  /// All of it, for checkpoints.
+  [[nodiscard]] particles::GroupView view(std::string name) {
+    return {std::move(name), "bonds", true, {}, {{"memory", "", 1, memory_, false}, {"length", "m", 1, length_, false}}};
+  }
+
   /// Marks the particles with bonds through periodic faces, as positions are now; until they are put back into the box, nothing changes.
   template <int Dim>
   void mark_crossing(std::span<const Vector<Dim>> own, std::span<const Vector<Dim>> partners, const geometry::Box<Dim>& box) {
@@ -139,12 +161,13 @@ class BondList {
   }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return (offset_.size() + partner_.size() + reaction_.size()) * sizeof(std::uint32_t) +
-           (rest_length_.size() + weight_.size() + sum_of_weights_.size()) * sizeof(double) + crosses_.size();
+           (rest_length_.size() + weight_.size() + sum_of_weights_.size() + memory_.size() + length_.size()) * sizeof(double) +
+           crosses_.size();
   }
 
  private:
   std::vector<std::uint32_t> offset_{0}, partner_, reaction_;
-  std::vector<double> rest_length_, weight_, sum_of_weights_;
+  std::vector<double> rest_length_, weight_, sum_of_weights_, memory_, length_;
   std::size_t weight_step_ = 0;
   std::vector<std::uint8_t> crosses_;
 };

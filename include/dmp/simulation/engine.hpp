@@ -32,7 +32,7 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
     this->build_lists(true);
     this->pack_all(0.0);
     this->gather_summed(step, 0.0);
-    if constexpr (has_substeps) this->fast_forces();
+    if constexpr (has_substeps) this->fast_forces(0.0);
     this->gather_all(time, 0.0);
     if constexpr (Integrator::keeps_rates)
       for_each_group([](auto& g) {
@@ -171,7 +171,7 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
         g.template get<field::Velocity>()[i] += 0.5 * part * g.template get<FastAcceleration>()[i];
         g.positions()[i] += part * g.template get<field::Velocity>()[i];
       });
-      this->fast_forces();
+      this->fast_forces(part);
       for_each_fast(
           [&](auto& g, std::size_t i) { g.template get<field::Velocity>()[i] += 0.5 * part * g.template get<FastAcceleration>()[i]; });
     }

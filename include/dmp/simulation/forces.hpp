@@ -163,10 +163,12 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   }
   /// Accelerations and rates from the records as they are.
   void gather_all(double time, double dt) {
+    begin_memories<false>(dt);
     for_each_group([&](auto& g) { gather<false>(g, time, dt); });
   }
-  /// Sub-stepped bonds alone; of the groups at their ends only those that have moved are packed again.
-  void fast_forces() {
+  /// Sub-stepped bonds alone, at the end of a sub-step of `dt`; of the groups at their ends only those that have moved are packed again.
+  void fast_forces(double dt) {
+    begin_memories<true>(dt);
     for_each_group([&](auto& g) {
       using G = std::remove_cvref_t<decltype(g)>;
       if constexpr (LayoutOf<G>::has_substeps || (LayoutOf<G>::has_bonds && particles::is_driven<typename G::Mobility>)) pack(g, 0.0);
@@ -206,6 +208,14 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   }
 
  private:
+  /// The memories of bonds of one phase are about to be carried over a step of `dt`.
+  template <bool Fast>
+  void begin_memories(double dt) {
+    for_each_item([dt](auto& active) {
+      if constexpr (is_bonds<std::remove_cvref_t<decltype(active.item)>>)
+        if (active.item.substepped == Fast) active.recall.begin(active.item.law, dt);
+    });
+  }
   /// Records of all particles of a group and of its ghosts.
   template <class G>
   void pack(G& g, double dt) {
@@ -242,10 +252,10 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
 
   /// What the items say of particle i, which lies in `block`: pairs and bonds of one phase.
   template <bool Fast, class G, class Sums, class Add>
-  [[gnu::always_inline]] void sum_items(const G& g, std::size_t block, std::size_t i, Sums& sums, const Add& add) const noexcept {
+  [[gnu::always_inline]] void sum_items(const G& g, std::size_t block, std::size_t i, Sums& sums, const Add& add) noexcept {
     using Tag = typename G::Tag;
     [[maybe_unused]] const auto self = g.template spread<Lanes>(i);
-    for_each_item([&](const auto& active) __attribute__((always_inline)) {
+    for_each_item([&](auto& active) __attribute__((always_inline)) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_interaction<I> && !Fast)
         std::apply(
@@ -258,8 +268,10 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
             active.item.laws);
       if constexpr (is_bonds<I>)
         if constexpr (mobile<G> && I::substepped == Fast) {
-          if constexpr (std::is_same_v<Tag, typename I::A>) bonds<typename I::B>(g, i, active.of_a, add, active.item.law);
-          else if constexpr (std::is_same_v<Tag, typename I::B>) bonds<typename I::A>(g, i, active.of_b, add, active.item.law);
+          if constexpr (std::is_same_v<Tag, typename I::A>)
+            bonds<typename I::B>(g, i, active.of_a, add, active.item.law, active.recall.of(active.of_a, i));
+          else if constexpr (std::is_same_v<Tag, typename I::B>)
+            bonds<typename I::A>(g, i, active.of_b, add, active.item.law, active.recall.of(active.of_b, i));
         }
     });
   }
@@ -272,9 +284,9 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     else sweep::sum_pairs<Dim>(self, source, neighbours, sums, law...);
   }
   /// Adds the force of the bonds of particle i to its row of sums, and the reactions to the rows of its partners if they are of this group.
-  template <class Source, class G, class Add, class Law>
-  [[gnu::always_inline]] void bonds(const G& g, std::size_t i, const neighbours::BondList& list, const Add& add,
-                                    const Law& law) const noexcept {
+  template <class Source, class G, class Add, class Law, class Memory>
+  [[gnu::always_inline]] void bonds(const G& g, std::size_t i, const neighbours::BondList& list, const Add& add, const Law& law,
+                                    const Memory& memory) const noexcept {
     const auto& source = this->template group<Source>();
     using Partners = typename std::remove_cvref_t<decltype(source)>::Records;
     const sweep::BondRecords records{g.records.data() + i * G::Records::stride, source.records.data(), Partners::stride};
@@ -285,8 +297,8 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     const auto react = [&](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
       if constexpr (std::is_same_v<Source, typename G::Tag>) plus(row, factor, vector);
     };
-    if (list.crosses(i)) plus(i, 1.0, sweep::sum_bonds<Dim, true>(records, list.of(i), bond_periods_, react, law));
-    else plus(i, 1.0, sweep::sum_bonds<Dim, false>(records, list.of(i), bond_periods_, react, law));
+    if (list.crosses(i)) plus(i, 1.0, sweep::sum_bonds<Dim, true>(records, list.of(i), bond_periods_, react, law, memory));
+    else plus(i, 1.0, sweep::sum_bonds<Dim, false>(records, list.of(i), bond_periods_, react, law, memory));
   }
 
   template <class I, class Function>

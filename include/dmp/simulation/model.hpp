@@ -16,6 +16,7 @@
 #include <dmp/simulation/composition.hpp>
 #include <dmp/simulation/group.hpp>
 #include <dmp/simulation/rules.hpp>
+#include <dmp/sweep/bonds.hpp>
 
 namespace dmp::simulation {
 
@@ -36,6 +37,7 @@ template <int Dim, class Item>
 struct Active<Dim, Item> {
   Item item;
   neighbours::BondList of_a{}, of_b{};
+  sweep::Recall<decltype(Item::law)> recall{};
 };
 template <int Dim, class... Tag, class Law>
 struct Active<Dim, Summed<std::tuple<Tag...>, Law>> {
@@ -186,6 +188,10 @@ class Model {
     if constexpr (mobile<decltype(a)>) active.of_a.build(a.blocks, active.item.bonds, same, false, Lanes::width);
     if constexpr (mobile<decltype(b)> && !same) active.of_b.build(b.blocks, active.item.bonds, false, true, Lanes::width);
     a.may_be_sorted = b.may_be_sorted = false;
+    if constexpr (bond::HasMemory<decltype(I::law)>) {
+      if (!active.of_a.empty()) active.of_a.template remember<Dim>(a.positions(), b.positions(), box_);
+      if (!active.of_b.empty()) active.of_b.template remember<Dim>(b.positions(), a.positions(), box_);
+    }
   }
 
   template <class... Tag, class Law>

@@ -280,6 +280,15 @@ class Scene {
   [[nodiscard]] std::vector<particles::GroupView> views() {
     std::vector<particles::GroupView> result;
     engine_.for_each_group([&result](auto& g) { result.push_back(g.view()); });
+    engine_.for_each_item([&, item = 0](auto& active) mutable {  // and what bonds remember
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_bonds<I>)
+        if constexpr (bond::HasMemory<decltype(I::law)>)
+          for (auto* const list : {&active.of_a, &active.of_b})
+            if (!list->empty())
+              result.push_back(list->view("bonds " + std::to_string(item) + (list == &active.of_a ? ", first ends" : ", second ends")));
+      ++item;
+    });
     return result;
   }
   [[nodiscard]] Fault fault() {

@@ -2,6 +2,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
 #include <dmp/bond/concept.hpp>
 #include <dmp/core/components.hpp>
 #include <dmp/core/math.hpp>
@@ -76,13 +79,37 @@ struct BondRecords {
   int stride;              ///< doubles from one of these to the next
 };
 
+/// What the bonds of a law remember in the step under way: nothing ...
+struct NoMemory {};
+template <class Law>
+struct Recall {
+  void begin(const Law&, double) noexcept {}
+  [[nodiscard]] NoMemory of(const neighbours::BondList&, std::size_t) const noexcept { return {}; }
+};
+/// ... or a number each, which `after` carries to the end of the step.
+template <bond::HasMemory Law>
+struct Recall<Law> {
+  using After = decltype(std::declval<const Law&>().memory_after(0.0));
+  struct Entries {
+    neighbours::BondList::Memory at;
+    After after;
+  };
+  std::optional<After> after;
+
+  /// A step of `dt` [s]; 0 for an evaluation between steps, which adds nothing unless positions have been changed by hand.
+  void begin(const Law& law, double dt) { after.emplace(law.memory_after(dt)); }
+  [[nodiscard, gnu::always_inline]] Entries of(neighbours::BondList& list, std::size_t i) const noexcept {
+    return {list.memory_of(i), *after};
+  }
+};
+
 /// Force [N] of its bonds on a particle. Entries with a negative rest length are none; a bond of length zero has no direction and exerts no
 /// force. `react(row, factor, vector)` adds the reaction factor * vector [N] to a row. Lanes are components while vectors are at work, and
-/// bonds while the law is asked.
-template <int Dim, bool Periodic, class React, class Law>
+/// bonds while the law is asked. `memory` is brought to the end of the step.
+template <int Dim, bool Periodic, class React, class Law, class Memory = NoMemory>
 [[nodiscard, gnu::always_inline]] inline Row<Dim> sum_bonds(const BondRecords records, const neighbours::BondList::Entries bonds,
-                                                            [[maybe_unused]] const Periods<Dim>& periods, const React react,
-                                                            const Law law) noexcept {
+                                                            [[maybe_unused]] const Periods<Dim>& periods, const React react, const Law law,
+                                                            [[maybe_unused]] const Memory memory = {}) noexcept {
   constexpr int width = Lanes::width;
   constexpr bool with_velocity = bond::UsesVelocity<Law>;
   const auto own_position = Row<Dim>::load(records.own);
@@ -107,9 +134,22 @@ template <int Dim, bool Periodic, class React, class Law>
     });
     const Lanes rest_length = Lanes::load(bonds.rest_length + k), length_squared = sum_across(squares), length = sqrt(length_squared);
     const Lanes inverse = length * (1.0 / length_squared);  // the division need not wait for the root
+    const auto stretch = [&]() __attribute__((always_inline)) {
+      if constexpr (with_velocity) return bond::MovingStretch<Lanes>{{length, rest_length}, inverse * sum_across(approaches)};
+      else return bond::Stretch<Lanes>{length, rest_length};
+    }
+    ();
     Lanes tension;
-    if constexpr (with_velocity) tension = law.tension(bond::MovingStretch<Lanes>{{length, rest_length}, inverse * sum_across(approaches)});
-    else tension = law.tension(bond::Stretch<Lanes>{length, rest_length});
+    if constexpr (bond::HasMemory<Law>) {
+      double *const at = memory.at.memory + k, *const length_at = memory.at.length + k;
+      bond::Remembering<std::remove_const_t<decltype(stretch)>, Lanes> now{stretch, length - Lanes::load(length_at), Lanes::load(at)};
+      now.memory = memory.after(now);
+      now.memory.store(at);
+      length.store(length_at);
+      tension = law.tension(now);
+    } else {
+      tension = law.tension(stretch);
+    }
     const Lanes weight = Lanes::load(bonds.weight + k * bonds.weight_step);
     const Lanes pull = select(rest_length >= 0.0 && length_squared > 0.0, tension * (inverse * weight), 0.0);
     unrolled<width>([&](auto lane) __attribute__((always_inline)) {
