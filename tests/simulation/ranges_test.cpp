@@ -185,6 +185,33 @@ TEST_CASE("a law of a summed property stops the run in the step whose sums it ca
 
 namespace {
 
+/// A liquid that boils when it is stretched.
+struct Boiling : eos::Linear {
+  [[nodiscard]] bool admits(double density) const { return density > 0.99 * rest_density; }
+  [[nodiscard]] std::string demand() const { return "Boiling: density must be > 0.99 of that at rest"; }
+};
+
+}  // namespace
+
+TEST_CASE("an equation of state of the density alone may have a range too") {
+  auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
+      geometry::Box<2>::unbounded(), group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 0.1}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), 0.01),
+      interaction<Water, Water>(sph::WeaklyCompressible<kernel::Lucy<2>>{.kernel = {.support_radius = 0.26}}), material<Water>(Boiling{{.rest_density = 1.0, .sound_speed_0 = 0.1}}));
+  scene.group<Water>().set<field::Velocity>([](const Vector<2>& x) { return Vector<2>(0.1 * x); });  // expands: the density sinks by about 0.2 per second
+  bool caught = false;
+  try {
+    scene.run({.until = 1.0, .time_step = 1e-3});
+  } catch (const SimulationError& error) {
+    caught = true;
+    CHECK(std::string(error.what()).find("dmp: Boiling: density must be > 0.99 of that at rest, got density 0.98") == 0);
+    CHECK(error.where.time == doctest::Approx(0.05).epsilon(0.1));
+    CHECK(error.where.field == "density");
+  }
+  CHECK(caught);
+}
+
+namespace {
+
 /// A law of its own shape for each alternative.
 struct Exponential {
   double mu, slope;

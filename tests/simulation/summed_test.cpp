@@ -230,6 +230,8 @@ TEST_CASE("summed in every step, the density at the end of a step is the sum the
   const double leapfrog_100 = density_lag<integrator::Leapfrog>(100), leapfrog_200 = density_lag<integrator::Leapfrog>(200);
   CHECK(leapfrog_100 < 1e-4);
   CHECK(leapfrog_100 > 3.8 * leapfrog_200);
+  const double euler_100 = density_lag<integrator::SymplecticEuler>(100), euler_200 = density_lag<integrator::SymplecticEuler>(200);
+  CHECK(euler_100 > 3.8 * euler_200);
   const double lammps_100 = density_lag<integrator::LammpsVerlet>(100), lammps_200 = density_lag<integrator::LammpsVerlet>(200);
   CHECK(lammps_100 == doctest::Approx(2.0 * lammps_200).epsilon(0.05));  // what laws see there is the state of half a step ago
 }

@@ -243,6 +243,10 @@ struct Compose {
                 "dmp: a law reads the shear rate of a group, but nothing sets it; add summed<Group>(sph::ShearRate<...>{...})");
   static_assert(summed::count == 0 || Mobility::evolves, "dmp: summed<Group>: nothing changes in a frozen group; make it stationary");
 
+  static_assert(summed::count == 0 || has_pairs, "dmp: summed<Group>: no interaction joins the group to any, so it has no neighbours");
+  static_assert(intersect<summed, unite<constants, derived>>::count == 0,
+                "dmp: summed<Group> sets a property that a law in the materials of the group sets too; leave one of them out");
+
   using rates = std::conditional_t<Mobility::evolves, typename Rates<writes>::type, Fields<>>;
   using state = subtract<unite<needed, typename Integrated<rates>::type, summed>,
                          unite<constants, derived, Fields<field::Position, field::Velocity>>>;

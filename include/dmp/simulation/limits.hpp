@@ -51,7 +51,7 @@ template <class Integrator, class Engine, class G>
               part.kinematic_viscosity = std::max(part.kinematic_viscosity, particle.dynamic_viscosity / particle.density);
             if constexpr (requires { particle.thermal_conductivity; })
               part.thermal_conductivity = std::max(part.thermal_conductivity, particle.thermal_conductivity);
-            const auto one = [&](const auto& l) {
+            [[maybe_unused]] const auto one = [&](const auto& l) {
               if constexpr (requires { l.sound_speed(particle); }) part.sound_speed = std::max(part.sound_speed, l.sound_speed(particle));
               if constexpr (G::Mobility::evolves && requires {
                               l.specific_heat();
