@@ -1,4 +1,4 @@
-// expect: dmp: a pair law reads the pressure term or the viscosity of a group
+// expect: dmp: a pair law reads the pressure term, the sound speed, the viscosity or the conductivity of a group, but no
 #include <dmp/dmp.hpp>
 
 namespace {

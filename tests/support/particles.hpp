@@ -12,7 +12,7 @@ namespace test {
 template <int Dim, class T = double>
 using Particle = dmp::View<Dim, T,
                            dmp::Fields<dmp::field::Position, dmp::field::Velocity, dmp::field::Mass, dmp::field::Density,
-                                       dmp::field::PressureTerm, dmp::field::DynamicViscosity>>;
+                                       dmp::field::PressureTerm, dmp::field::DynamicViscosity, dmp::field::SoundSpeed>>;
 
 template <int Dim, class T>
 [[nodiscard]] dmp::Pair<Dim, T> pair_of(const Particle<Dim, T>& i, const Particle<Dim, T>& j) {
@@ -26,8 +26,8 @@ template <int Dim, class T>
   return pair;
 }
 
-/// Particles with different numbers in every field: density 800 to 1200, p/rho^2 -1 to 1, viscosity 1e-3 to 2e-3, mass 1 to 2,
-/// velocity -1 to 1, position 0 to 1 (SI units).
+/// Particles with different numbers in every field: density 800 to 1200, p/rho^2 -1 to 1, viscosity 1e-3 to 2e-3, sound speed 10 to 20,
+/// mass 1 to 2, velocity -1 to 1, position 0 to 1 (SI units).
 class ParticleSource {
  public:
   template <int Dim>
@@ -41,6 +41,7 @@ class ParticleSource {
     result.density = between(800.0, 1200.0);
     result.pressure_term = between(-1.0, 1.0);
     result.dynamic_viscosity = between(1e-3, 2e-3);
+    result.sound_speed = 15.0 + 5.0 * result.velocity[0];
     return result;
   }
   [[nodiscard]] double between(double a, double b) { return a + (b - a) * static_cast<double>(generator_()) / 4294967296.0; }
@@ -62,6 +63,7 @@ template <class Real, int Width, int Dim>
     result.density.raw[lane] = static_cast<Real>(lanes[lane].density);
     result.pressure_term.raw[lane] = static_cast<Real>(lanes[lane].pressure_term);
     result.dynamic_viscosity.raw[lane] = static_cast<Real>(lanes[lane].dynamic_viscosity);
+    result.sound_speed.raw[lane] = static_cast<Real>(lanes[lane].sound_speed);
   }
   return result;
 }

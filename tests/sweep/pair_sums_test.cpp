@@ -26,7 +26,8 @@ using namespace dmp;
 
 namespace {
 
-using All = Fields<field::Position, field::Velocity, field::Mass, field::Density, field::PressureTerm, field::DynamicViscosity>;
+using All = Fields<field::Position, field::Velocity, field::Mass, field::Density, field::PressureTerm, field::DynamicViscosity,
+                   field::SoundSpeed>;
 
 /// The sums of all particles, and for each number of a particle the sum of the absolute values of its terms.
 template <int Dim, class Writes>
@@ -208,6 +209,7 @@ auto flow(V v = {}, D d = {}, C c = {}) {
   return sph::WeaklyCompressible<kernel::WendlandC2<Dim>, V, D, C>{.kernel = {.support_radius = support}, .viscosity = v, .diffusion = d, .tensile = c};
 }
 constexpr viscosity::Artificial artificial{.alpha = 0.5, .sound_speed = 20.0};
+constexpr viscosity::ShockCapturing shock_capturing{.alpha = 0.5, .beta = 1.0};
 constexpr diffusion::MolteniColagrossi molteni{.sound_speed = 20.0};
 constexpr tensile::Monaghan repulsion{.spacing = 0.12};
 
@@ -236,6 +238,25 @@ TEST_CASE("the flow equations in packs are those of a plain loop over all pairs:
   check_sums<1>(flow<1>(artificial));
   check_sums<2>(flow<2>(artificial));
   check_sums<3>(flow<3>(artificial));
+  check_sums<2>(flow<2>(shock_capturing));
+  check_sums<3>(flow<3>(shock_capturing));
+}
+
+namespace {
+
+template <int Dim, class V>
+void check_with_energy(const V& viscosity) {
+  check_sums<Dim>(sph::Compressible<kernel::WendlandC2<Dim>, V, diffusion::None, tensile::Monaghan>{
+      .kernel = {.support_radius = support}, .viscosity = viscosity, .tensile = repulsion});
+}
+
+}  // namespace
+
+TEST_CASE("the flow equations in packs are those of a plain loop over all pairs: with the energy equation") {
+  check_with_energy<1>(shock_capturing);
+  check_with_energy<2>(viscosity::Morris<>{});
+  check_with_energy<2>(viscosity::Monaghan<2>{});
+  check_with_energy<3>(shock_capturing);
 }
 
 TEST_CASE("the flow equations in packs are those of a plain loop over all pairs: diffusion, tensile correction, and all together") {

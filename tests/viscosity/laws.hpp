@@ -27,11 +27,12 @@ template <int Dim, class V>
 /// dv_0/dt of a particle at the origin of a square or cubic lattice of unit spacing, density 1, whose sites have velocity(position).
 template <int Dim, class V, class Velocity>
 [[nodiscard]] dmp::Components<Dim, double> lattice_acceleration(const V& law, double support_radius, double viscosity,
-                                                                const Velocity& velocity) {
+                                                                const Velocity& velocity, double sound_speed = 0.0) {
   const dmp::kernel::Lucy<Dim> kernel{.support_radius = support_radius};
   Particle<Dim> i{};
   i.mass = i.density = 1.0;
   i.dynamic_viscosity = viscosity;
+  i.sound_speed = sound_speed;
   i.velocity = velocity(i.position);
   dmp::Components<Dim, double> result{};
   for_each_site<Dim>(support_radius, [&](const auto& site, double) {
@@ -116,13 +117,16 @@ void check_viscosity_laws(const V& law, double share_of_pairs = 1.0) {
   CHECK(test::pair_lane_error<float, dmp::native_width<float>, Dim>(coefficient) < 1e-4);
 
   // The stated damping rate is that of one particle moving through its neighbours at rest.
-  constexpr double support = Dim == 1 ? 200.0 : Dim == 2 ? 20.0 : 8.0, nu = 0.3, speed = 0.7;  // spacing 1, density 1
+  // Slow beside the sound: a term of the square of the velocities does not count.
+  constexpr double support = Dim == 1 ? 200.0 : Dim == 2 ? 20.0 : 8.0, speed = 0.7, sound_speed = 1e4;  // spacing 1, density 1
+  double nu = 0.3;
+  if constexpr (requires { law.kinematic_viscosity(sound_speed, support); }) nu = law.kinematic_viscosity(sound_speed, support);
   const auto one_moves = [](const Vector& x) {
     Vector velocity{};
     if (dot(x, x) == 0.0) velocity[0] = speed;
     return velocity;
   };
-  const double measured = -test::lattice_acceleration<Dim>(law, support, nu, one_moves)[0] / speed;
+  const double measured = -test::lattice_acceleration<Dim>(law, support, nu, one_moves, sound_speed)[0] / speed;
   const double stated =
       law.damping_rate(nu, support, dmp::kernel::radial_factor_integral(dmp::kernel::Lucy<Dim>{.support_radius = support}), Dim);
   CAPTURE(stated);

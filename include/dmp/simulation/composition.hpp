@@ -105,6 +105,17 @@ template <class First, class... Rest>
 inline constexpr bool set_before_read<std::tuple<First, Rest...>> =
     ((intersect<typename First::reads, typename Rest::writes>::count == 0) && ...) && set_before_read<std::tuple<Rest...>>;
 
+/// Whether of laws to choose from at run time each sets whatever is needed of what any of them sets.
+template <class Law, class Needed>
+inline constexpr bool sets_whole = true;
+template <class... L, class Needed>
+inline constexpr bool sets_whole<sweep::ChosenOf<L...>, Needed> =
+    ((intersect<subtract<unite<typename L::writes...>, typename L::writes>, Needed>::count == 0) && ...);
+template <class Laws, class Needed>
+inline constexpr bool all_set_whole = true;
+template <class... Law, class Needed>
+inline constexpr bool all_set_whole<std::tuple<Law...>, Needed> = (sets_whole<Law, Needed> && ...);
+
 template <class G, class H, class... Item>
 inline constexpr bool is_partner = (joins_both<G, H, Item> || ...);
 
@@ -221,6 +232,8 @@ struct Compose {
                 "of the temperature, say): name the one that sets it first");
   using material_reads = unite<typename OfMaterial<Tag, Item>::reads...>;
   using needed = unite<reads, material_reads>;
+  static_assert(all_set_whole<materials, needed>,
+                "dmp: one of the laws to be chosen from in the materials of a group sets a property that another does not set, and a law reads it");
   using derived = intersect<unite<typename OfMaterial<Tag, Item>::derived...>, needed>;
   using summed = unite<typename OfSummed<Tag, Item, Item...>::sets...>;
   static_assert(intersect<subtract<reads, unite<constants, derived>>, subtract<SetByLaws, Fields<field::ShearRate>>>::count == 0,
@@ -229,6 +242,10 @@ struct Compose {
   static_assert(!contains<field::ShearRate, subtract<needed, summed>>,
                 "dmp: a law reads the shear rate of a group, but nothing sets it; add summed<Group>(sph::ShearRate<...>{...})");
   static_assert(summed::count == 0 || Mobility::evolves, "dmp: summed<Group>: nothing changes in a frozen group; make it stationary");
+
+  static_assert(summed::count == 0 || has_pairs, "dmp: summed<Group>: no interaction joins the group to any, so it has no neighbours");
+  static_assert(intersect<summed, unite<constants, derived>>::count == 0,
+                "dmp: summed<Group> sets a property that a law in the materials of the group sets too; leave one of them out");
 
   using rates = std::conditional_t<Mobility::evolves, typename Rates<writes>::type, Fields<>>;
   using state = subtract<unite<needed, typename Integrated<rates>::type, summed>,

@@ -42,18 +42,19 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
   }
 
   /// First part of a step of length `dt` [s] that ends at `time` [s]: everything moves. Returns whether neighbour lists are worn out, so
-  /// that build_lists must be called before `forces`.
+  /// that build_lists must be called before `prepare_forces`.
   [[nodiscard]] bool begin_step(double dt, double time) {
     if constexpr (has_substeps) begin_with_substeps(dt, time);
     else for_each_group([&](auto& g) { pass(g, 0.0, dt, time); });
     return this->lists_are_worn();
   }
-  /// Second part: forces at the new positions, in step number `step`. `fresh_lists`: they were built since the step began.
-  void forces(double dt, double time, std::uint64_t step, bool fresh_lists) {
+  /// Second part: properties that are summed at the new positions, in step number `step`. `fresh_lists`: built since the step began.
+  void prepare_forces(double dt, std::uint64_t step, bool fresh_lists) {
     if (has_substeps || fresh_lists) this->pack_all(dt);  // otherwise the records are those that begin_step has left
     this->gather_summed(step, dt);
-    this->gather_all(time, dt);
   }
+  /// Third part: forces.
+  void forces(double dt, double time) { this->gather_all(time, dt); }
   /// Last part: the end of the step.
   void end_step(double dt) {
     for_each_group([&](auto& g) { pass(g, dt, 0.0, 0.0); });

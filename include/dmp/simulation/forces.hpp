@@ -72,7 +72,7 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     particle.velocity = to_components<Dim>(seen_velocity(g, i, dt));
     load_state(typename C::state{}, g, i, dt, particle);
     [[maybe_unused]] const auto one = [&particle]<class L>(const L& l) {
-      if constexpr (intersect<typename L::writes, typename C::derived>::count > 0 && !detail::is_constant<L>) l.apply(particle);
+      if constexpr (intersect<typename L::writes, typename C::derived>::count > 0) l.apply(particle);
     };
     (one(law), ...);
     return particle;
@@ -108,6 +108,10 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   /// What a summed law finds now at every particle of a group, row by row; for looking on, the particles stay as they are.
   template <class Tag, class Law>
   [[nodiscard]] auto find_sums(const Law& law) {
+    static_assert(sweep::explain_summed_law<Law>());
+    check_parameters(law);
+    this->template check_reach<Tag>(law);
+    pack_all(0.0);  // the state between two steps; also after lists were built
     auto& g = this->template group<Tag>();
     std::vector<View<Dim, double, typename Law::sets>> result(g.size());
     particles::Sums<Dim, typename Law::sums> sums;

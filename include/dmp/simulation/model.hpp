@@ -161,6 +161,20 @@ class Model {
 
   [[nodiscard]] const auto& items() const noexcept { return items_; }
 
+  template <class Tag, class Law>
+  void check_reach(const Law& summed) const {  // every list that a summed law sweeps must reach far enough
+    for_each_item([&](const auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_interaction<I>)
+        if constexpr (std::is_same_v<Tag, typename I::A> || std::is_same_v<Tag, typename I::B>)
+          require(summed.cutoff() <= active.item.cutoff(),
+                  ("summed: support radius must be <= the cut-off of the interaction of " + group<typename I::A>().name + " and " +
+                   group<typename I::B>().name + " (" + to_text(active.item.cutoff()) + " m)")
+                      .c_str(),
+                  summed.cutoff());
+    });
+  }
+
   geometry::Box<Dim> box_;
   std::array<double, Dim> periods_{};  // lengths of the periodic directions, 0 for the others
 
@@ -195,32 +209,23 @@ class Model {
   }
 
   template <class... Tag, class Law>
-  void check_summed(const Summed<std::tuple<Tag...>, Law>& summed) const {  // every list that it sweeps must reach far enough
-    for_each_item([&](const auto& active) {
-      using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_interaction<I>)
-        if constexpr (((std::is_same_v<Tag, typename I::A> || std::is_same_v<Tag, typename I::B>) || ...))
-          require(summed.law.cutoff() <= active.item.cutoff(),
-                  ("summed: support radius must be <= the cut-off of the interaction of " + group<typename I::A>().name + " and " +
-                   group<typename I::B>().name + " (" + to_text(active.item.cutoff()) + " m)")
-                      .c_str(),
-                  summed.law.cutoff());
-    });
+  void check_summed(const Summed<std::tuple<Tag...>, Law>& summed) const {
+    (check_reach<Tag>(summed.law), ...);
   }
 
   template <class I>
   void set_constants(const I& item) {  // and the density at the start, where the equation of state has one of rest
     for_each_group([&](auto& g) {
+      using Layout = typename std::remove_cvref_t<decltype(g)>::Layout;
       if constexpr (I::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
         std::apply(
-            [&g]<class... Law>(const Law&... law) {
+            [&g](const auto&... law) {
               const auto one = [&g]<class L>(const L& l) {
-                if constexpr (detail::is_constant<L>) l.apply(g.constants);
-                if constexpr (requires { l.eos.rest_density; } &&
-                              contains<field::Density, typename std::remove_cvref_t<decltype(g)>::Layout::columns>)
+                if constexpr (intersect<typename L::writes, typename Layout::constants>::count > 0) l.apply(g.constants);
+                if constexpr (requires { l.eos.rest_density; } && contains<field::Density, typename Layout::columns>)
                   g.template get<field::Density>().assign(g.size(), l.eos.rest_density);
               };
-              (one(law), ...);
+              sweep::with_chosen([&one](const auto&... chosen) { (one(chosen), ...); }, law...);
             },
             item.laws);
     });

@@ -141,7 +141,9 @@ class Scene {
           check();
           engine_.build_lists(false);
         }
-        engine_.forces(clock_.time_step, clock_.time, clock_.step, worn);
+        engine_.prepare_forces(clock_.time_step, clock_.step, worn);
+        if (engine_.has_refused()) check_materials(clock_.time_step);  // of what has been summed over neighbours, or sub-stepped
+        engine_.forces(clock_.time_step, clock_.time);
         ++report.steps;
         // Where nobody looks at the state between two steps, the end of one and the beginning of the next are one pass.
         const bool checks = clock_.step % options.check_every == 0, chooses = options.time_step == 0.0 && clock_.step % 10 == 0;
@@ -219,6 +221,7 @@ class Scene {
     if (prepared_) return;
     check_input();
     engine_.evaluate(clock_.time, clock_.step);
+    check_materials_at_start();
     if (clock_.step == 0) reject_overlaps();
     prepared_ = true;
   }
@@ -359,9 +362,6 @@ class Scene {
     if (!found.what.empty())
       throw ParameterError("scene: group " + found.group + ", particle " + std::to_string(found.particle) + ": " + found.field + " " +
                            found.what + ", got " + to_text(found.value));
-    engine_.find_refused(0.0, [](const auto& g, std::size_t i, const std::string& demand, const auto& particle, auto read) {
-      throw ParameterError("scene: group " + g.name + ", particle " + std::to_string(g.id[i]) + ": " + demand + ", got " + given(particle, read));
-    });
     engine_.for_each_item([this](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_interaction<I>) {
@@ -372,6 +372,12 @@ class Scene {
           throw ParameterError("scene: support radius (cut-off) of " + a.name + " and " + b.name + " must be >= their spacing " +
                                to_text(spacing) + " m, got " + to_text(active.item.cutoff()));
       }
+    });
+  }
+  /// check_materials at the start, when summed properties are known.
+  void check_materials_at_start() const {
+    engine_.find_refused(0.0, [](const auto& g, std::size_t i, const std::string& demand, const auto& particle, auto read) {
+      throw ParameterError("scene: group " + g.name + ", particle " + std::to_string(g.id[i]) + ": " + demand + ", got " + given(particle, read));
     });
   }
   void rescue(const SimulationError& error) {

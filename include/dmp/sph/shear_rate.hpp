@@ -11,8 +11,9 @@ namespace dmp::sph {
 
 /// Shear rate from the velocities around, a summed law:  sqrt(2 D:D) [1/s],  D = (L + L^T)/2,  L = G M^-1
 ///   G = sum_j V_j (v_j - v_i) (x) grad_i W,   M = sum_j V_j (r_j - r_i) (x) grad_i W,   V_j = m_j/rho_j, grad_i W = F r_ij
-/// M is the unit matrix in the continuum; dividing by it makes L exact for a linear velocity field, also beside a wall. Where neighbours
-/// do not span space (det M <= 0.01: a droplet of a few particles) L = G.
+/// M is the unit matrix in the continuum, about 1/8 of it at a corner in space; dividing by it makes L exact for a linear velocity field,
+/// also beside walls and free surfaces. Where neighbours do not span space (a row, a sheet, a droplet of few particles: det M <= 0.01
+/// (tr M/d)^d) L = G.
 /// J. Bonet, T.-S. L. Lok, Comput. Methods Appl. Mech. Engrg. 180 (1999) 97-115, doi:10.1016/S0045-7825(99)00051-1.
 template <class K>
 struct ShearRate {
@@ -57,7 +58,9 @@ struct ShearRate {
     using Matrix = Eigen::Matrix<double, dimension, dimension, dimension == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
     const Matrix moment = Eigen::Map<const Matrix>(total.moment.component);
     Matrix gradient = Eigen::Map<const Matrix>(total.velocity_gradient.component);
-    if (moment.determinant() > 0.01) gradient = (gradient * moment.inverse()).eval();
+    double scale = 0.01;
+    unrolled<dimension>([&](auto) { scale *= moment.trace() / dimension; });
+    if (moment.determinant() > scale) gradient = (gradient * moment.inverse()).eval();
     particle.shear_rate = std::sqrt(0.5) * (gradient + gradient.transpose()).norm();  // 2 D:D = |L + L^T|^2/2
   }
 };

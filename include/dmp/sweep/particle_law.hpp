@@ -70,9 +70,10 @@ struct PressureFrom {
   }
   template <class Particle>
   [[nodiscard]] bool admits(const Particle& particle) const noexcept
-    requires requires(const E e, double x) { e.admits(x, x); }
+    requires(requires(const E e, double x) { e.admits(x, x); } || requires(const E e, double x) { e.admits(x); })
   {
-    return eos.admits(particle.density, particle.specific_energy);
+    if constexpr (is_thermal) return eos.admits(particle.density, particle.specific_energy);
+    else return eos.admits(particle.density);
   }
   [[nodiscard]] std::string demand() const
     requires requires(const E e) { e.demand(); }
@@ -184,11 +185,8 @@ void with_chosen(Function&& function, const First& first, const Rest&... rest) {
   else go_on(first);
 }
 
-/// Whether a law restricts the particles it can work with.
+/// Whether a law restricts the particles it can work with; then it must say what it demands.
 template <class L, class Particle>
-concept Restricted = requires(const L law, const Particle particle) {
-  law.admits(particle);
-  law.demand();
-};
+concept Restricted = requires(const L law, const Particle particle) { law.admits(particle); };
 
 }  // namespace dmp::sweep
