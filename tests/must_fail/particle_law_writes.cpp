@@ -1,4 +1,4 @@
-// expect: dmp: not a material law: neither an EquationOfState, nor a viscosity(temperature), nor a ParticleLaw
+// expect: dmp: not a material law: neither an EquationOfState, nor a ThermalLaw, nor a viscosity(temperature), nor an apparent_viscosity(shear_rate), nor a ParticleLaw
 #include <dmp/sweep/particle_law.hpp>
 
 namespace {
