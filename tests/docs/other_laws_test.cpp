@@ -9,6 +9,8 @@
 #include "forcing/laws.hpp"
 #include "kernel/laws.hpp"
 #include "potential/laws.hpp"
+#include "rheology/laws.hpp"
+#include "thermal/laws.hpp"
 #include "viscosity/laws.hpp"
 
 namespace own {
@@ -103,6 +105,30 @@ struct Centrifugal {
 // end
 void validate(const Centrifugal&) {}
 
+// doc: own-thermal
+/// Solid whose specific heat rises with the temperature.  c = a + b T,  e = a T + b T^2/2  [J/kg]
+struct WarmingSolid {
+  double a, b;  // [J/(kg K)], [J/(kg K^2)]
+  auto temperature(const auto& e) const { return 2.0 * e / (a + sqrt(a * a + 2.0 * b * e)); }
+  auto specific_energy(const auto& temperature) const { return temperature * (a + 0.5 * b * temperature); }
+  double specific_heat() const { return a; }  // the least
+  bool admits(double e) const { return e > 0.0; }
+  std::string demand() const { return "WarmingSolid: temperature must be > 0 K, that is specific_energy > 0 J/kg"; }
+};
+// end
+void validate(const WarmingSolid&) {}
+
+// doc: own-shear
+/// Paste with a yield stress.  mu = mu_p + tau_y/sqrt(rate^2 + rate_0^2)  [Pa s]: below rate_0 it creeps.
+/// M. Bercovier, M. Engelman, J. Comput. Phys. 36 (1980) 313-326, doi:10.1016/0021-9991(80)90163-1.
+struct Bingham {
+  static constexpr std::string_view name = "bingham";
+  double mu_p, tau_y, rate_0;  // [Pa s], [Pa], [1/s]
+  auto apparent_viscosity(const auto& shear_rate) const { return mu_p + tau_y / sqrt(square(shear_rate) + rate_0 * rate_0); }
+};
+// end
+void validate(const Bingham&) {}
+
 // doc: own-field
 /// Volume fraction of suspended solids, a state of every particle that a law of this program reads.
 struct Concentration {
@@ -161,6 +187,36 @@ struct Diffusion {
 };
 // end
 
+// doc: own-summed
+struct Filling {
+  static constexpr std::string_view name = "filling", unit = "-";
+  static constexpr bool is_vector = false;
+  template <int Dim, class T>
+  struct Slot {
+    T filling;
+  };
+  static constexpr auto& of(auto& slots) { return slots.filling; }
+};
+
+/// Share of the support that particles fill, sum_j V_j W: 1 inside, about 1/2 at a free surface.
+template <class K>
+struct FillingAround {
+  using reads = Fields<field::Density>;
+  using sums = Fields<Filling>;
+  using sets = Fields<Filling>;
+  static constexpr bool uses_velocity = false;
+  K kernel;
+
+  double cutoff() const { return kernel.support_radius; }
+  void add(const auto& pair, const auto&, const auto& j, auto& total) const {
+    total.filling += j.mass / j.density * kernel.value(pair.distance);
+  }
+  void set(auto& particle, const auto& total) const {
+    particle.filling = total.filling + particle.mass / particle.density * kernel.value(0.0);
+  }
+};
+// end
+
 }  // namespace own
 
 TEST_CASE("laws of one's own obey the laws of their families") {
@@ -170,6 +226,8 @@ TEST_CASE("laws of one's own obey the laws of their families") {
   check_viscosity_laws<2>(own::OneViscosity{.nu = 0.3});                                             // the suite compares with 0.3
   check_pair_potential_laws(own::SoftRepulsion{.energy_scale = 2.0, .cutoff = 0.1}, 0.0);            // from r = 0
   check_forcing_laws<3>(own::Centrifugal{.w = 2.0});
+  check_thermal_laws(own::WarmingSolid{.a = 400.0, .b = 0.5}, 0.0, 600.0);                           // from 0 to 600 K
+  check_viscosity_of_shear_rate_laws(own::Bingham{.mu_p = 0.1, .tau_y = 5.0, .rate_0 = 0.01}, Becomes::thinner, 0.1, 500.1);
   // end
 }
 
@@ -191,6 +249,7 @@ double amplitude_left(double time) {
       simulation::interaction<Slurry, Slurry>(Flow{.kernel = kernel}, Diffusion<Kernel>{.kernel = kernel, .diffusivity = 0.01},
                                               SoftRepulsion{.energy_scale = 1e-9, .cutoff = spacing}),
       simulation::material<Slurry>(Isothermal{.rest_density = 1.0, .c = 5.0}, KriegerDougherty{.mu0 = 0.01, .c_max = 0.64}),
+      simulation::summed<Slurry>(FillingAround<Kernel>{.kernel = kernel}),
       simulation::forced_by<Slurry>(Centrifugal{.w = 1e-6}));
   auto& slurry = basin.group<Slurry>();
   slurry.set<field::Density>([](const auto&) { return 1.0; });
@@ -205,6 +264,7 @@ double amplitude_left(double time) {
     total += slurry.get<Concentration>()[k] / static_cast<double>(slurry.size());
   }
   CHECK(total == doctest::Approx(0.2).epsilon(1e-6));
+  for (const double filling : slurry.get<Filling>()) CHECK(filling == doctest::Approx(1.0).epsilon(0.01));  // nowhere a free surface
   return overlap / std::exp(-0.01 * wave * wave * basin.time());
 }
 
@@ -212,4 +272,43 @@ double amplitude_left(double time) {
 
 TEST_CASE("a field, a material law and a pair law of one's own: a wave of solids decays as exp(-D k^2 t)") {
   CHECK(own::amplitude_left(0.5) == doctest::Approx(0.1).epsilon(0.03));
+}
+
+namespace own {
+
+struct Bar {};
+
+/// A bar of the warming solid, its left half at `hot` and the rest at 300 K, 5000 s later: the same heat, nearer to each other.
+void conduct(double hot) {
+  constexpr double spacing = 0.01;
+  const geometry::Cuboid<2> cuboid{.lower = {0.0, 0.0}, .upper = {0.2, 0.06}};
+  const WarmingSolid solid{.a = 400.0, .b = 0.5};
+  const sph::HeatConduction<WendlandC6> conduction{.kernel = {.support_radius = 3.0 * spacing}};
+  auto scene = simulation::scene<integrator::LammpsVerlet>(
+      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {0.2, 0.06}, .periodic = {false, true}},
+      simulation::group<Bar>("bar", particles::Stationary{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, cuboid),
+                             8000.0 * spacing * spacing),
+      // doc: own-thermal-material
+      simulation::material<Bar>(solid, eos::ConstantDensity{.density = 8000.0}, thermal::Conductivity{.thermal_conductivity = 40.0}),
+      // end
+      simulation::interaction<Bar, Bar>(conduction));
+  auto& energies = scene.group<Bar>().get<field::SpecificEnergy>();
+  scene.group<Bar>().set<field::SpecificEnergy>([&](const Vector<2>& x) { return solid.specific_energy(x[0] < 0.1 ? hot : 300.0); });
+  const auto heat = [&] {
+    double sum = 0.0;
+    for (const double e : energies) sum += e / static_cast<double>(energies.size());
+    return sum;
+  };
+  const double before = heat(), mean = solid.temperature(before);
+  scene.run({.until = 5000.0});
+  CHECK(heat() == doctest::Approx(before).epsilon(1e-12));
+  for (const double e : energies) CHECK(solid.temperature(e) == doctest::Approx(mean).epsilon(1e-3));
+}
+
+}  // namespace own
+
+TEST_CASE("a thermal law of one's own: a bar comes to one temperature and keeps its heat; what the law does not admit is refused") {
+  own::conduct(500.0);
+  const std::string demand = "WarmingSolid: temperature must be > 0 K, that is specific_energy > 0 J/kg, got specific_energy -3975 J/kg";
+  CHECK_THROWS_WITH_AS(own::conduct(-10.0), doctest::Contains(demand.c_str()), dmp::ParameterError);
 }
