@@ -70,7 +70,7 @@ void parts_of_step(benchmark::State& state) {
     const std::clock_t start = std::clock();
     if (worn) engine.build_lists(false);
     const std::clock_t listed = std::clock();
-    engine.forces(time_step, time, worn);
+    engine.forces(time_step, time, 0, worn);
     const std::clock_t swept = std::clock();
     time += time_step;
     worn = engine.go_on(time_step, time_step, time);

@@ -6,7 +6,7 @@
 
 namespace example {
 
-Options options(int argc, char** argv, const std::string& name, const std::string& what) {
+Options options(int argc, char** argv, const std::string& name, const std::string& what, int least_resolution) {
   CLI::App parser(what, name);
   Options result;
   result.output = "output/" + name;
@@ -16,6 +16,10 @@ Options options(int argc, char** argv, const std::string& name, const std::strin
   parser.add_flag("--full", full, "published resolution; may take long")->excludes(quick_flag);
   parser.add_option("--threads", threads, "threads to use")->check(CLI::PositiveNumber)->capture_default_str();
   parser.add_option("--output", result.output, "folder for all output")->capture_default_str();
+  if (least_resolution > 0)
+    parser.add_option("--resolution", result.resolution, "this resolution alone, instead of those of the size")
+        ->check(CLI::Range(least_resolution, 1000000))
+        ->excludes(quick_flag);
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {

@@ -16,4 +16,5 @@
 #include <dmp/sph.hpp>
 #include <dmp/sweep.hpp>
 #include <dmp/tensile.hpp>
+#include <dmp/thermal.hpp>
 #include <dmp/viscosity.hpp>

@@ -27,3 +27,15 @@ TEST_CASE("the ideal gas refuses a heat capacity ratio of 1 and less") {
   CHECK(test::complaint_about(eos::IdealGas{.heat_capacity_ratio = NAN}) ==
         "eos::IdealGas: heat_capacity_ratio must be > 1 and < 1000, got nan");
 }
+
+TEST_CASE("the ideal gas does not admit a specific energy or a density of 0 and less") {
+  const eos::IdealGas air{};
+  CHECK(air.admits(1.2, 2e5));
+  CHECK(air.admits(1e-300, 1e-300));
+  for (const double nothing : {0.0, -0.0, -1.0, double(NAN), double(-INFINITY)}) {
+    CAPTURE(nothing);
+    CHECK_FALSE(air.admits(1.2, nothing));
+    CHECK_FALSE(air.admits(nothing, 2e5));
+  }
+  CHECK(air.demand() == "eos::IdealGas: specific_energy must be > 0 J/kg and density > 0 kg/m^3");
+}

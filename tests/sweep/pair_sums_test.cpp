@@ -230,9 +230,9 @@ TEST_CASE("the flow equations in packs are those of a plain loop over all pairs:
 
 TEST_CASE("the flow equations in packs are those of a plain loop over all pairs: every viscosity") {
   check_sums<2>(flow<2>(viscosity::Morris<>{}));
-  check_sums<3>(flow<3>(viscosity::Morris<viscosity::HarmonicMean>{}));
+  check_sums<3>(flow<3>(viscosity::Morris<dmp::HarmonicMean>{}));
   check_sums<2>(flow<2>(viscosity::Monaghan<2>{}));
-  check_sums<3>(flow<3>(viscosity::Monaghan<3, viscosity::HarmonicMean>{}));
+  check_sums<3>(flow<3>(viscosity::Monaghan<3, dmp::HarmonicMean>{}));
   check_sums<1>(flow<1>(artificial));
   check_sums<2>(flow<2>(artificial));
   check_sums<3>(flow<3>(artificial));

@@ -1,5 +1,5 @@
 #include "viscosity/laws.hpp"
-#include <dmp/viscosity/mean.hpp>
+#include <dmp/core/mean.hpp>
 #include <dmp/viscosity/monaghan.hpp>
 
 namespace viscosity = dmp::viscosity;
@@ -9,7 +9,7 @@ TEST_CASE("Monaghan's viscosity obeys the laws of viscosity in 1D, 2D and 3D") {
   check_viscosity_laws<1>(viscosity::Monaghan<1>{});
   check_viscosity_laws<2>(viscosity::Monaghan<2>{});
   check_viscosity_laws<3>(viscosity::Monaghan<3>{});
-  check_viscosity_laws<3>(viscosity::Monaghan<3, viscosity::HarmonicMean>{});
+  check_viscosity_laws<3>(viscosity::Monaghan<3, dmp::HarmonicMean>{});
 }
 
 TEST_CASE("Monaghan's viscosity of a parabolic profile is nu d^2u/dy^2, less 4.4 % in 2D and 3.3 % in 3D for the softening") {

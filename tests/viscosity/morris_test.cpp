@@ -1,5 +1,5 @@
 #include "viscosity/laws.hpp"
-#include <dmp/viscosity/mean.hpp>
+#include <dmp/core/mean.hpp>
 #include <dmp/viscosity/morris.hpp>
 
 namespace viscosity = dmp::viscosity;
@@ -9,7 +9,7 @@ TEST_CASE("Morris' viscosity obeys the laws of viscosity in 1D, 2D and 3D") {
   check_viscosity_laws<1>(viscosity::Morris<>{});
   check_viscosity_laws<2>(viscosity::Morris<>{});
   check_viscosity_laws<3>(viscosity::Morris<>{});
-  check_viscosity_laws<2>(viscosity::Morris<viscosity::HarmonicMean>{});
+  check_viscosity_laws<2>(viscosity::Morris<dmp::HarmonicMean>{});
 }
 
 TEST_CASE("Morris' viscosity of a parabolic profile is nu d^2u/dy^2, times the lattice's second moment") {

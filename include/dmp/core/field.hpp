@@ -43,10 +43,21 @@ using unite = typename detail::Unite<Fields<>, Lists...>::type;
 template <class List, class Without>
 using subtract = typename detail::Subtract<Fields<>, List, Without>::type;
 
+/// What is in both.
+template <class A, class B>
+using intersect = subtract<A, subtract<A, B>>;
+
 template <class... Field, class Function>
 constexpr void for_each_field(Fields<Field...>, Function&& function) {
   (function(Field{}), ...);
 }
+
+/// Numbers of a field per particle: a scalar, a vector, or a tensor (`is_tensor`, of row after row), which only summed laws have.
+template <class Field, int Dim>
+inline constexpr int numbers_of = [] {
+  if constexpr (requires { Field::is_tensor; }) return Dim * Dim;
+  else return Field::is_vector ? Dim : 1;
+}();
 
 /// The fields that laws read and write. Each has a name (output, errors), a unit, and a `Slot`: the member through which a law sees
 /// it (`i.density`). A state that must stay > 0 says `is_positive`; a rate says what it

@@ -19,6 +19,9 @@ concept EquationOfState = std::is_trivially_copyable_v<E> && requires(const E eo
 
 /// Contract of an equation of state p(rho, e) with e the specific internal energy [J/kg].
 ///   pressure(rho, e) [Pa], sound_speed(rho, e) [m/s], specific_energy(p, rho) [J/kg], its inverse
+/// Optional, what errors speak of:
+///   admits(rho, e)  whether such a state exists, with a positive temperature and a real sound speed
+///   demand()        the rule that `admits` checks, in words
 template <class E>
 concept ThermalEquationOfState = std::is_trivially_copyable_v<E> && requires(const E eos, double x) {
   { eos.pressure(x, x) } -> std::same_as<double>;

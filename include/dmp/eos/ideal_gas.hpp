@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+#include <string_view>
 #include <dmp/core/math.hpp>
 #include <dmp/core/require.hpp>
 
@@ -11,6 +13,7 @@ namespace dmp::eos {
 /// LAMMPS `sph/idealgas` codes c = sqrt((gamma - 1) e), 15.5 % too low for gamma = 1.4.
 /// J. J. Monaghan, Rep. Prog. Phys. 68 (2005) 1703-1759, doi:10.1088/0034-4885/68/8/R01.
 struct IdealGas {
+  static constexpr std::string_view name = "eos::IdealGas";
   double heat_capacity_ratio = 1.4;  ///< gamma = c_p/c_v [-], > 1; 1.4 is air and any diatomic gas at room temperature
 
   template <class T>
@@ -25,6 +28,9 @@ struct IdealGas {
   [[nodiscard]] T specific_energy(const T& pressure, const T& density) const noexcept {
     return (1.0 / (heat_capacity_ratio - 1.0)) * pressure / density;
   }
+
+  [[nodiscard]] bool admits(double density, double specific_energy) const noexcept { return density > 0.0 && specific_energy > 0.0; }
+  [[nodiscard]] std::string demand() const { return std::string(name) + ": specific_energy must be > 0 J/kg and density > 0 kg/m^3"; }
 };
 
 inline void validate(const IdealGas& eos) {

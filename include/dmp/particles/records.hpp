@@ -17,14 +17,14 @@ template <int Dim, class T, class... Field, class Function>
   constexpr auto numbers_before = []<class Wanted>(std::type_identity<Wanted>) consteval {
     int count = 0;
     bool found = false;
-    ((found = found || std::is_same_v<Wanted, Field>, count += found ? 0 : (Field::is_vector ? Dim : 1)), ...);
+    ((found = found || std::is_same_v<Wanted, Field>, count += found ? 0 : numbers_of<Field, Dim>), ...);
     return count;
   };
   const auto one = [&]<class F>(std::type_identity<F>) __attribute__((always_inline)) {
     constexpr int first = numbers_before(std::type_identity<F>{});
     auto& member = F::of(view);
-    if constexpr (F::is_vector)
-      unrolled<Dim>([&](auto d)
+    if constexpr (numbers_of<F, Dim> > 1 || F::is_vector)
+      unrolled<numbers_of<F, Dim>>([&](auto d)
                         __attribute__((always_inline)) { function(std::integral_constant<int, first + d>{}, member.component[d]); });
     else function(std::integral_constant<int, first>{}, member);
   };
@@ -44,7 +44,7 @@ class Records<Dim, Fields<Field...>, Precision> {
   using Frame = typename Precision::template Frame<Dim>;
   template <class T>
   using view = View<Dim, T, List>;
-  static constexpr int numbers = (0 + ... + (Field::is_vector ? Dim : 1));
+  static constexpr int numbers = (0 + ... + numbers_of<Field, Dim>);
   static constexpr int width = native_width<Real>;
   static constexpr int stride = (numbers + width - 1) / width * width;  ///< numbers from one record to the next
   using Lanes = Pack<Real, width>;

@@ -19,7 +19,7 @@ class Sums<Dim, Fields<Field...>> {
   using List = Fields<Field...>;
   template <class T>
   using view = View<Dim, T, List>;
-  static constexpr int numbers = (0 + ... + (Field::is_vector ? Dim : 1));
+  static constexpr int numbers = (0 + ... + numbers_of<Field, Dim>);
   static constexpr int width = native_width<double>;
   static constexpr int stride = (numbers + width - 1) / width * width;  ///< doubles from one record to the next
 

@@ -31,6 +31,10 @@ template <class T>
 inline constexpr bool is_forced = false;
 template <class Tags, class... Law>
 inline constexpr bool is_forced<Forced<Tags, Law...>> = true;
+template <class T>
+inline constexpr bool is_summed = false;
+template <class Tags, class Law>
+inline constexpr bool is_summed<Summed<Tags, Law>> = true;
 
 namespace detail {
 
@@ -40,6 +44,12 @@ template <class G, class A, class B, class... Law>
 inline constexpr bool joins<G, Interaction<A, B, Law...>> = std::is_same_v<G, A> || std::is_same_v<G, B>;
 template <class G, class A, class B, class Law, bool S>
 inline constexpr bool joins<G, Bonds<A, B, Law, S>> = std::is_same_v<G, A> || std::is_same_v<G, B>;
+
+template <class G, class H, class Item>
+inline constexpr bool joins_both = false;  // an interaction between G and H
+template <class G, class H, class A, class B, class... Law>
+inline constexpr bool joins_both<G, H, Interaction<A, B, Law...>> =
+    (std::is_same_v<G, A> && std::is_same_v<H, B>) || (std::is_same_v<G, B> && std::is_same_v<H, A>);
 
 template <class G, class Item>
 inline constexpr bool acts_within = false;  // an interaction with G at both ends
@@ -69,6 +79,7 @@ inline constexpr bool is_constant = std::is_same_v<typename Law::reads, Fields<>
 
 template <class G, class Item>
 struct OfMaterial {
+  using laws = std::tuple<>;
   using reads = Fields<>;
   using constants = Fields<>;
   using derived = Fields<>;
@@ -76,9 +87,40 @@ struct OfMaterial {
 template <class G, class... Tag, class... Law>
   requires(Material<std::tuple<Tag...>, Law...>::template concerns<G>)
 struct OfMaterial<G, Material<std::tuple<Tag...>, Law...>> {
+  using laws = std::tuple<Law...>;
   using reads = unite<typename Law::reads...>;
   using constants = unite<std::conditional_t<is_constant<Law>, typename Law::writes, Fields<>>...>;
   using derived = unite<std::conditional_t<is_constant<Law>, Fields<>, typename Law::writes>...>;
+};
+
+/// Whether no law sets what another one has set, or has read before it was set.
+template <class Laws>
+inline constexpr bool set_once = true;
+template <class First, class... Rest>
+inline constexpr bool set_once<std::tuple<First, Rest...>> =
+    ((intersect<typename First::writes, typename Rest::writes>::count == 0) && ...) && set_once<std::tuple<Rest...>>;
+template <class Laws>
+inline constexpr bool set_before_read = true;
+template <class First, class... Rest>
+inline constexpr bool set_before_read<std::tuple<First, Rest...>> =
+    ((intersect<typename First::reads, typename Rest::writes>::count == 0) && ...) && set_before_read<std::tuple<Rest...>>;
+
+template <class G, class H, class... Item>
+inline constexpr bool is_partner = (joins_both<G, H, Item> || ...);
+
+/// What a summed law asks of group G, and what it sets there. Its partners are all groups that an interaction joins to its own.
+template <class G, class Summed_, class... Item>
+struct OfSummed {
+  using reads = Fields<>;
+  using sets = Fields<>;
+  static constexpr bool uses_velocity = false;
+};
+template <class G, class... Tag, class Law, class... Item>
+  requires((std::is_same_v<G, Tag> || is_partner<G, Tag, Item...>) || ...)
+struct OfSummed<G, Summed<std::tuple<Tag...>, Law>, Item...> {
+  using reads = typename Law::reads;
+  using sets = std::conditional_t<(std::is_same_v<G, Tag> || ...), typename Law::sets, Fields<>>;
+  static constexpr bool uses_velocity = Law::uses_velocity;
 };
 
 template <class Field>
@@ -94,12 +136,15 @@ struct Rates<Fields<Field...>> {
   using type = unite<rate_only<Field>...>;
 };
 
-template <class Field>
-inline constexpr bool may_be_stored = !std::is_same_v<Field, field::PressureTerm> && !std::is_same_v<Field, field::DynamicViscosity>;
+/// What must be set by a law, and never is a column that the user fills.
+using SetByLaws = Fields<field::PressureTerm, field::DynamicViscosity, field::SoundSpeed, field::ThermalConductivity, field::ShearRate>;
+
 template <class List>
-inline constexpr bool all_stored = true;
-template <class... Field>
-inline constexpr bool all_stored<Fields<Field...>> = (may_be_stored<Field> && ...);
+struct Integrated;
+template <class... Rate>
+struct Integrated<Fields<Rate...>> {
+  using type = unite<Fields<typename Rate::integrates>...>;
+};
 
 }  // namespace detail
 
@@ -123,6 +168,7 @@ struct Layout {
   using rates = Rates;                    ///< rates of change of the state
   using record = Record;                  ///< what pair and bond laws read, packed anew each step
   using constants = Constants;            ///< one value for the whole group
+  using derived = Derived;                ///< what material laws set of each particle, as far as any law reads it
   using writes = Writes;                  ///< what pair and bond laws sum
   using seen = unite<Record, Constants>;  ///< what laws see of a particle
   using prepared = unite<Fields<field::Position, field::Velocity>, State, Derived, Constants>;  ///< what material laws work on
@@ -159,28 +205,40 @@ struct Compose {
   using Mobility = typename G::Mobility;
   static constexpr bool has_pairs = ((is_interaction<Item> && joins<Tag, Item>) || ...);
   static constexpr bool has_bonds = ((is_bonds<Item> && joins<Tag, Item>) || ...);
+  static constexpr bool uses_velocity = (OfItem<Tag, Item>::uses_velocity || ...) || (OfSummed<Tag, Item, Item...>::uses_velocity || ...);
   static constexpr bool has_substeps = particles::is_mobile<Mobility> && (OfItem<Tag, Item>::substepped || ...);
   template <bool Wanted, class... Field>
   using only_if = std::conditional_t<Wanted, Fields<Field...>, Fields<>>;
 
-  using reads = unite<typename OfItem<Tag, Item>::reads...>;
+  using reads = unite<typename OfItem<Tag, Item>::reads..., typename OfSummed<Tag, Item, Item...>::reads...>;
   using writes = unite<std::conditional_t<has_bonds, Fields<field::Force>, Fields<>>,  // the force first: bonds add it in whole registers
                        typename OfItem<Tag, Item>::writes...>;
   using constants = unite<Fields<field::Mass>, typename OfMaterial<Tag, Item>::constants...>;
-  using derived = unite<typename OfMaterial<Tag, Item>::derived...>;
+  using materials = decltype(std::tuple_cat(std::declval<typename OfMaterial<Tag, Item>::laws>()...));
+  static_assert(set_once<materials>, "dmp: two laws in the materials of a group set the same property; leave one of them out");
+  static_assert(set_before_read<materials>,
+                "dmp: a law in the materials of a group reads a property that a later one sets (a viscosity of temperature before the law "
+                "of the temperature, say): name the one that sets it first");
   using material_reads = unite<typename OfMaterial<Tag, Item>::reads...>;
-  static_assert(all_stored<subtract<reads, unite<constants, derived>>>,
-                "dmp: a pair law reads the pressure term or the viscosity of a group, but no material<Group>(...) of this scene sets it");
+  using needed = unite<reads, material_reads>;
+  using derived = intersect<unite<typename OfMaterial<Tag, Item>::derived...>, needed>;
+  using summed = unite<typename OfSummed<Tag, Item, Item...>::sets...>;
+  static_assert(intersect<subtract<reads, unite<constants, derived>>, subtract<SetByLaws, Fields<field::ShearRate>>>::count == 0,
+                "dmp: a pair law reads the pressure term, the sound speed, the viscosity or the conductivity of a group, but no "
+                "material<Group>(...) of this scene sets it");
+  static_assert(!contains<field::ShearRate, subtract<needed, summed>>,
+                "dmp: a law reads the shear rate of a group, but nothing sets it; add summed<Group>(sph::ShearRate<...>{...})");
+  static_assert(summed::count == 0 || Mobility::evolves, "dmp: summed<Group>: nothing changes in a frozen group; make it stationary");
 
-  using state = subtract<unite<reads, material_reads>, unite<constants, derived, Fields<field::Position, field::Velocity>>>;
   using rates = std::conditional_t<Mobility::evolves, typename Rates<writes>::type, Fields<>>;
+  using state = subtract<unite<needed, typename Integrated<rates>::type, summed>,
+                         unite<constants, derived, Fields<field::Position, field::Velocity>>>;
   using columns = unite<Fields<field::Position>, only_if<particles::is_mobile<Mobility>, field::Velocity, field::Acceleration>,
                         only_if<particles::is_driven<Mobility>, StartPosition, field::Velocity>, only_if<has_substeps, FastAcceleration>,
                         state, rates, std::conditional_t<KeepsRates, typename AllPrevious<rates>::type, Fields<>>>;
-  using record = std::conditional_t<
-      has_pairs || has_bonds,
-      unite<Fields<field::Position>, only_if<(OfItem<Tag, Item>::uses_velocity || ...), field::Velocity>, subtract<reads, constants>>,
-      Fields<>>;
+  using record = std::conditional_t<has_pairs || has_bonds,
+                                    unite<Fields<field::Position>, only_if<uses_velocity, field::Velocity>, subtract<reads, constants>>,
+                                    Fields<>>;
   using type = Layout<columns, state, rates, record, constants, derived, writes, has_pairs, has_bonds, has_substeps,
                       Mobility::evolves && (has_bonds || (acts_within<Tag, Item> || ...))>;
 };

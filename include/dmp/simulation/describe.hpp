@@ -21,6 +21,8 @@ template <class Scene>
   });
   scene.engine().for_each_item([&bytes](const auto& active) {
     if constexpr (requires { active.of_a.bytes(); }) bytes += static_cast<double>(active.of_a.bytes() + active.of_b.bytes());
+    if constexpr (requires { active.sums; })
+      for (const auto& sums : active.sums) bytes += static_cast<double>(sums.bytes());
   });
   return bytes / static_cast<double>(std::max<std::size_t>(1, scene.particles()));
 }
@@ -64,6 +66,12 @@ template <class Scene>
            << active.item.cutoff() << " m, writes";
       fields(typename I::writes{});
       text << '\n';
+      any = true;
+    }
+    if constexpr (is_summed<I>) {
+      text << "  summed over neighbours:";
+      fields(typename decltype(active.item.law)::sets{});
+      text << ", every " << active.item.every << (active.item.every == 1 ? " step, a sweep" : " steps, a sweep") << " of its own\n";
       any = true;
     }
     if constexpr (is_bonds<I>) {

@@ -34,11 +34,12 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
   /// The next step is the first one, whose accelerations are still without the dashpots that are solved for.
   void start_afresh() noexcept { fresh_ = true; }
 
-  /// Accelerations and rates from the present state, e.g. before the first step; `time` [s] as forcings see it.
-  void evaluate(double time) {
+  /// Accelerations and rates from the present state, e.g. before the first step; `time` [s] as forcings see it, `step` as summed laws do.
+  void evaluate(double time, std::uint64_t step) {
     for_each_group([&](auto& g) { for_each_particle(g, [&](std::size_t i) { follow_motion(g, i, time); }); });
     this->build_lists(true);
     this->pack_all(0.0);
+    this->gather_summed(step, 0.0);
     if constexpr (has_substeps) this->fast_forces(0.0);
     this->gather_all(time, 0.0);
     start_afresh();
@@ -59,9 +60,10 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
     else for_each_group([&](auto& g) { pass(g, 0.0, dt, time); });
     return this->lists_are_worn();
   }
-  /// Second part: forces at the new positions. `fresh_lists`: they were built since the step began.
-  void forces(double dt, double time, bool fresh_lists) {
+  /// Second part: forces at the new positions, in step number `step`. `fresh_lists`: they were built since the step began.
+  void forces(double dt, double time, std::uint64_t step, bool fresh_lists) {
     if (has_substeps || fresh_lists) this->pack_all(dt);  // otherwise the records are those that begin_step has left
+    this->gather_summed(step, dt);
     this->gather_all(time, dt);
     if constexpr (has_dashpots) this->add_dashpots(dt);
   }
@@ -93,14 +95,16 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
   void pass(G& g, double last_dt, double dt, double time) {
     using C = LayoutOf<G>;
     if constexpr (evolves<G>) {
-      for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t first, std::size_t last) {
-        const auto one = [&](std::size_t i) {
-          if (last_dt > 0.0) end(g, i, last_dt);
-          if (!(dt > 0.0)) return;
-          begin(g, i, dt, time);
-          if constexpr (C::has_records) this->pack_one(g, i, dt);
-        };
-        follow(g, range, first, last, one);
+      this->with_materials(g, [&](const auto&... law) {
+        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t first, std::size_t last) {
+          const auto one = [&](std::size_t i) {
+            if (last_dt > 0.0) end(g, i, last_dt);
+            if (!(dt > 0.0)) return;
+            begin(g, i, dt, time);
+            if constexpr (C::has_records) this->pack_one(g, i, dt, law...);
+          };
+          follow(g, range, first, last, one);
+        });
       });
       if (dt > 0.0) this->pack_ghosts(g);
     }

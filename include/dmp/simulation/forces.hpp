@@ -1,9 +1,12 @@
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <utility>
+#include <vector>
 #include <dmp/integrator/concept.hpp>
 #include <dmp/simulation/lists.hpp>
 #include <dmp/sweep/bonds.hpp>
@@ -32,10 +35,14 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
         g.sums.set_zero(g.size(), g.first_ghost());
       }
     });
+    for_each_item([&](auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_summed<I>) for_each_concerned<I>([&](auto& g, std::size_t n) { clear_sums(g, active.sums[n]); });
+    });
     refresh_frozen();
     for_each_group([&](auto& g) {
       if constexpr (LayoutOf<decltype(g)>::has_pairs) {
-        pack_one(g, 0, 0.0);
+        with_materials(g, [&](const auto&... law) { pack_one(g, 0, 0.0, law...); });
         auto far_away = g.records.load(0);
         for (double& x : far_away.position.component) x = 1e30;
         for (std::size_t row = g.size(); row < g.first_ghost(); ++row) g.records.store(row, far_away);
@@ -49,23 +56,66 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     });
   }
 
-  /// Particle i as the material laws have completed it: state, pressure term, viscosity, ...; `dt` [s] is the step under way, 0 between
-  /// steps.
-  template <class G>
-  [[nodiscard]] auto prepared(const G& g, std::size_t i, double dt) const noexcept {
+  /// Calls function(laws...) with the material laws of a group; what was chosen at run time is looked up here, once.
+  template <class G, class Function>
+  void with_materials(const G&, Function&& function) const {
+    const auto laws = std::apply([](const auto&... active) { return std::tuple_cat(laws_for<typename G::Tag>(active.item)...); }, this->items());
+    std::apply([&](const auto&... law) { sweep::with_chosen(function, law...); }, laws);
+  }
+  /// Particle i as the material laws complete it: state, pressure term, viscosity, ...; `dt` [s] is the step under way, 0 between steps.
+  template <class G, class... Law>
+  [[nodiscard]] auto prepared_by(const G& g, std::size_t i, double dt, const Law&... law) const noexcept {
     using C = LayoutOf<decltype(g)>;
     View<Dim, double, typename C::prepared> particle;
     spread_fields<double>(typename C::constants{}, particle, g.constants);
     particle.position = to_components<Dim>(g.positions()[i]);
     particle.velocity = to_components<Dim>(seen_velocity(g, i, dt));
     load_state(typename C::state{}, g, i, dt, particle);
-    for_each_item([&](const auto& active) {
-      using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_material<I>)
-        if constexpr (I::template concerns<typename std::remove_cvref_t<G>::Tag>)
-          std::apply([&](const auto&... law) { (apply_material(law, particle), ...); }, active.item.laws);
-    });
+    [[maybe_unused]] const auto one = [&particle]<class L>(const L& l) {
+      if constexpr (intersect<typename L::writes, typename C::derived>::count > 0 && !detail::is_constant<L>) l.apply(particle);
+    };
+    (one(law), ...);
     return particle;
+  }
+  template <class G>
+  [[nodiscard]] auto prepared(const G& g, std::size_t i, double dt) const noexcept {
+    View<Dim, double, typename LayoutOf<G>::prepared> particle;
+    with_materials(g, [&](const auto&... law) { particle = prepared_by(g, i, dt, law...); });
+    return particle;
+  }
+
+  /// Whether records have been packed of a particle that a material law cannot work with. Forgets it.
+  [[nodiscard]] bool has_refused() noexcept { return std::exchange(refused_, false); }
+  /// Calls found(group, i, demand, particle, fields read) for the first particle that a material law cannot work with, if there is one.
+  template <class Function>
+  void find_refused(double dt, Function&& found) const {
+    for_each_group([&](const auto& g) {
+      with_materials(g, [&](const auto&... law) {
+        using Particle = View<Dim, double, typename LayoutOf<decltype(g)>::prepared>;
+        if constexpr ((sweep::Restricted<std::remove_cvref_t<decltype(law)>, Particle> || ...))
+          for (std::size_t i = 0; i < g.size(); ++i) {
+            const auto particle = prepared_by(g, i, dt, law...);
+            const auto one = [&]<class L>(const L& l) {
+              if constexpr (sweep::Restricted<L, Particle>)
+                if (!l.admits(particle)) found(g, i, l.demand(), particle, typename L::reads{});
+            };
+            (one(law), ...);
+          }
+      });
+    });
+  }
+
+  /// What a summed law finds now at every particle of a group, row by row; for looking on, the particles stay as they are.
+  template <class Tag, class Law>
+  [[nodiscard]] auto find_sums(const Law& law) {
+    auto& g = this->template group<Tag>();
+    std::vector<View<Dim, double, typename Law::sets>> result(g.size());
+    particles::Sums<Dim, typename Law::sums> sums;
+    clear_sums(g, sums);
+    sum_over_neighbours(law, g, sums, [&result](std::size_t i, const auto& particle) {
+      copy_fields(typename Law::sets{}, result[i], particle);
+    });
+    return result;
   }
 
   /// Velocity of particle i as laws see it; the wall velocity of groups that do not move.
@@ -93,6 +143,24 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
       if constexpr (LayoutOf<decltype(g)>::has_records && evolves<decltype(g)>) pack(g, dt);
     });
   }
+  /// Columns that summed laws set, in the evaluation of step number `step`, and records that know of them.
+  void gather_summed(std::uint64_t step, double dt) {
+    for_each_item([&](auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_summed<I>) {
+        if (step % active.item.every != 0) return;
+        for_each_concerned<I>([&](auto& g, std::size_t n) {
+          sum_over_neighbours(active.item.law, g, active.sums[n], [&](std::size_t i, const auto& particle) {
+            using Sets = typename decltype(active.item.law)::sets;
+            View<Dim, double, Sets> seen;
+            load_state(Sets{}, g, i, dt, seen);
+            for_each_field(Sets{}, [&]<class F>(F) { g.template get<F>()[i] += F::of(particle) - F::of(seen); });
+          });
+        });
+        pack_all(dt);
+      }
+    });
+  }
   /// Accelerations and rates from the records as they are.
   void gather_all(double time, double dt) {
     begin_memories<false>(dt);
@@ -110,11 +178,18 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     });
   }
 
-  /// Record of particle i as laws see it in a step of length `dt`.
-  template <class G>
-  void pack_one(G& g, std::size_t i, double dt) noexcept {
+  /// Record of particle i as laws see it in a step of length `dt`; material laws say if they cannot work with it.
+  template <class G, class... Law>
+  void pack_one(G& g, std::size_t i, double dt, const Law&... law) noexcept {
     using Record = typename LayoutOf<G>::record;
-    const auto particle = prepared(g, i, dt);
+    const auto particle = prepared_by(g, i, dt, law...);
+    if constexpr ((sweep::Restricted<Law, std::remove_cv_t<decltype(particle)>> || ...)) {
+      const auto admits = [&particle]<class L>(const L& l) {
+        if constexpr (sweep::Restricted<L, std::remove_cvref_t<decltype(particle)>>) return l.admits(particle);
+        else return true;
+      };
+      if (!(admits(law) && ...)) std::atomic_ref<bool>(refused_).store(true, std::memory_order_relaxed);
+    }
     View<Dim, double, Record> record;
     copy_fields(Record{}, record, particle);
     g.records.store(i, record);
@@ -161,15 +236,20 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   /// Records of all particles of a group and of its ghosts.
   template <class G>
   void pack(G& g, double dt) {
-    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) pack_one(g, i, dt);
+    with_materials(g, [&](const auto&... law) {
+      for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) pack_one(g, i, dt, law...);
+      });
     });
     pack_ghosts(g);
   }
 
-  template <class Law, class Particle>
-  static void apply_material(const Law& law, Particle& particle) noexcept {
-    if constexpr (!detail::is_constant<Law>) law.apply(particle);
+  template <class Tag, class I>
+  static auto laws_for(const I& item) {  // of a material that concerns the group
+    if constexpr (is_material<I>)
+      if constexpr (I::template concerns<Tag>) return std::apply([](const auto&... law) { return std::tie(law...); }, item.laws);
+      else return std::tuple<>();
+    else return std::tuple<>();
   }
   template <class... Field, class G, class Particle>
   static void load_state(Fields<Field...>, const G& g, std::size_t i, double dt, Particle& particle) noexcept {
@@ -194,12 +274,15 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     [[maybe_unused]] const auto self = g.template spread<Lanes>(i);
     for_each_item([&](auto& active) __attribute__((always_inline)) {
       using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_interaction<I> && !Fast) {
-        if constexpr (std::is_same_v<Tag, typename I::A>)
-          pairs<typename I::B>(self, active.of_a.of(block, i, g.level[block]), sums, add, active.item);
-        else if constexpr (std::is_same_v<Tag, typename I::B>)
-          pairs<typename I::A>(self, active.of_b.of(block, i, g.level[block]), sums, add, active.item);
-      }
+      if constexpr (is_interaction<I> && !Fast)
+        std::apply(
+            [&](const auto&... law) __attribute__((always_inline)) {
+              if constexpr (std::is_same_v<Tag, typename I::A>)
+                pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, g.level[block]), sums, add, law...);
+              else if constexpr (std::is_same_v<Tag, typename I::B>)
+                pairs<typename I::A, false>(self, active.of_b.of(block, i, g.level[block]), sums, add, law...);
+            },
+            active.item.laws);
       if constexpr (is_bonds<I>)
         if constexpr (mobile<G> && I::substepped == Fast) {
           if constexpr (std::is_same_v<Tag, typename I::A>)
@@ -209,18 +292,57 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
         }
     });
   }
-  template <class Source, class Self, class Sums, class Add, class I>
+  /// What laws say of a particle and its partners in one list; `Within`: these are of the same group.
+  template <class Source, bool Within, class Self, class Sums, class Add, class... Law>
   [[gnu::always_inline]] void pairs(const Self& self, std::span<const std::uint32_t> neighbours, Sums& sums, const Add& add,
-                                    const I& item) const noexcept {
+                                    const Law&... law) const noexcept {
     const auto source = this->template group<Source>().reader();
-    std::apply(
-        [&](const auto&... law) __attribute__((always_inline)) {
-          if constexpr (std::is_same_v<typename I::A, typename I::B> && Precision::pairs_once)
-            sweep::sum_pairs_of_both<Dim>(self, source, neighbours, sums, add, law...);
-          else sweep::sum_pairs<Dim>(self, source, neighbours, sums, law...);
-        },
-        item.laws);
+    if constexpr (Within && Precision::pairs_once) sweep::sum_pairs_of_both<Dim>(self, source, neighbours, sums, add, law...);
+    else sweep::sum_pairs<Dim>(self, source, neighbours, sums, law...);
   }
+
+  template <class I, class Function>
+  void for_each_concerned(Function&& function) {
+    std::size_t n = 0;
+    for_each_group([&](auto& g) {
+      if constexpr (I::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>) function(g, n++);
+    });
+  }
+  template <class G, class Sums>
+  static void clear_sums(const G& g, Sums& sums) {
+    sums.resize(g.first_ghost());
+    for_each_range(g.blocks.ranges(), [&sums](std::size_t, std::size_t first, std::size_t last) { sums.set_zero(first, last); });
+    sums.set_zero(g.size(), g.first_ghost());
+  }
+  /// Calls store(i, particle) for every particle of a group, as a summed law has set it. All lists of the group are swept.
+  template <class Law, class G, class Sums, class Store>
+  void sum_over_neighbours(const Law& law, G& g, Sums& sums_of_partners, Store&& store) {
+    using C = LayoutOf<G>;
+    for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
+      const std::size_t end = g.blocks.end(block);
+      for (std::size_t i = g.blocks.begin(block); i < end; ++i) {
+        const auto add = sums_of_partners.adder(i + 1, end, g.blocks.far_row(block));
+        const auto self = g.template spread<Lanes>(i);
+        View<Dim, Lanes, typename Law::sums> sums;
+        sweep::set_zero(sums);
+        for_each_item([&](const auto& active) {
+          using I = std::remove_cvref_t<decltype(active.item)>;
+          if constexpr (is_interaction<I>) {
+            if constexpr (std::is_same_v<typename G::Tag, typename I::A>)
+              pairs<typename I::B, std::is_same_v<typename I::A, typename I::B>>(self, active.of_a.of(block, i, g.level[block]), sums, add, law);
+            else if constexpr (std::is_same_v<typename G::Tag, typename I::B>)
+              pairs<typename I::A, false>(self, active.of_b.of(block, i, g.level[block]), sums, add, law);
+          }
+        });
+        View<Dim, double, unite<typename C::seen, typename Law::sets>> particle;
+        copy_fields(typename C::record{}, particle, g.records.load(i));
+        copy_fields(typename C::constants{}, particle, g.constants);
+        law.set(particle, sums_of_partners.take(i, sums));
+        store(i, particle);
+      }
+    });
+  }
+
   template <bool Fast, class G>
   void gather(G& g, double time, double dt) {
     using C = LayoutOf<G>;
@@ -275,6 +397,7 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     return result;
   }
 
+  bool refused_ = false;  // a material law could not work with a particle
   sweep::Periods<Dim> bond_periods_{this->periods_};
 };
 

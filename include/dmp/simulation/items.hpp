@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -14,6 +16,7 @@
 #include <dmp/particles/mobility.hpp>
 #include <dmp/sweep/pair_law.hpp>
 #include <dmp/sweep/particle_law.hpp>
+#include <dmp/sweep/summed_law.hpp>
 
 /// What a scene is made of. Groups are named by types of the user's: `struct Water {};`. Everything that two groups do to each other is
 /// declared by an item; what is not declared does not exist in the program.
@@ -124,8 +127,29 @@ struct Material<std::tuple<Tag...>, Law...> {
 template <class... Tag, class... Law>
 [[nodiscard]] auto material(const Law&... law) {
   static_assert(sizeof...(Tag) > 0, "dmp: material<Groups...>(laws...) names no group");
-  (check_parameters(law), ...);
+  (check_parameters(sweep::as_particle_law(law)), ...);
   return Material<std::tuple<Tag...>, decltype(sweep::as_particle_law(law))...>{{sweep::as_particle_law(law)...}};
+}
+
+template <class Tags, class Law>
+struct Summed;
+/// A property of the particles of some groups that is found from their neighbours before forces are.
+template <class... Tag, class Law>
+struct Summed<std::tuple<Tag...>, Law> {
+  template <class G>
+  static constexpr bool concerns = (std::is_same_v<G, Tag> || ...);
+  Law law;
+  std::uint64_t every;
+};
+/// summed<Water>(sph::ShearRate<K>{...}): a summed law over all partners that interactions join to the group; frozen partners are seen,
+/// and not changed. Steps divisible by `every` do it; its support must not exceed the cut-off of those interactions.
+template <class... Tag, class Law>
+[[nodiscard]] auto summed(const Law& law, std::uint64_t every = 1) {
+  static_assert(sizeof...(Tag) > 0, "dmp: summed<Groups...>(law) names no group");
+  static_assert(sweep::explain_summed_law<Law>());
+  check_parameters(law);
+  require(every > 0, "summed: every must be >= 1 step", static_cast<double>(every));
+  return Summed<std::tuple<Tag...>, Law>{law, every};
 }
 
 template <class Tags, class... Law>

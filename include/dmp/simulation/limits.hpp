@@ -15,6 +15,18 @@ namespace dmp::simulation {
 
 namespace detail {
 
+/// The extremes of two sets of particles together.
+[[nodiscard]] inline sweep::StepState widest(sweep::StepState a, const sweep::StepState& b) {
+  a.speed = std::max(a.speed, b.speed);
+  a.acceleration = std::max(a.acceleration, b.acceleration);
+  a.sound_speed = std::max(a.sound_speed, b.sound_speed);
+  a.kinematic_viscosity = std::max(a.kinematic_viscosity, b.kinematic_viscosity);
+  a.thermal_conductivity = std::max(a.thermal_conductivity, b.thermal_conductivity);
+  a.heat_capacity = std::min(a.heat_capacity, b.heat_capacity);
+  a.mass = std::min(a.mass, b.mass);
+  return a;
+}
+
 /// Extremes over the particles of a group.
 template <class Integrator, class Engine, class G>
 [[nodiscard]] sweep::StepState state_of(const Engine& engine, const G& g) {
@@ -22,45 +34,37 @@ template <class Integrator, class Engine, class G>
                          .damping_limit = Integrator::damping_limit,
                          .state_damping_limit = Integrator::state_damping_limit};
   if constexpr (particles::is_mobile<typename G::Mobility>) state.mass = g.mass;
-  const auto largest = [](sweep::StepState a, const sweep::StepState& b) {
-    a.speed = std::max(a.speed, b.speed);
-    a.acceleration = std::max(a.acceleration, b.acceleration);
-    a.sound_speed = std::max(a.sound_speed, b.sound_speed);
-    a.kinematic_viscosity = std::max(a.kinematic_viscosity, b.kinematic_viscosity);
-    return a;
-  };
-  state = merge_ranges(
-      g.blocks.ranges(), state,
-      [&](std::size_t first, std::size_t last) {
-        sweep::StepState part;
-        for (std::size_t i = first; i < last; ++i) {
-          const auto particle = engine.prepared(g, i, 0.0);
-          part.speed = std::max(part.speed, dot(particle.velocity, particle.velocity));
-          if constexpr (particles::is_mobile<typename G::Mobility>)
-            part.acceleration = std::max(part.acceleration, g.template get<field::Acceleration>()[i].squaredNorm());
-          if constexpr (requires {
-                          particle.dynamic_viscosity;
-                          particle.density;
-                        })
-            part.kinematic_viscosity = std::max(part.kinematic_viscosity, particle.dynamic_viscosity / particle.density);
-          engine.for_each_item([&](const auto& active) {
-            using I = std::remove_cvref_t<decltype(active.item)>;
-            if constexpr (is_material<I>)
-              if constexpr (I::template concerns<typename std::remove_cvref_t<G>::Tag>)
-                std::apply(
-                    [&](const auto&... law) {
-                      const auto one = [&](const auto& l) {
-                        if constexpr (requires { l.sound_speed(particle); })
-                          part.sound_speed = std::max(part.sound_speed, l.sound_speed(particle));
-                      };
-                      (one(law), ...);
-                    },
-                    active.item.laws);
-          });
-        }
-        return part;
-      },
-      largest);
+  engine.with_materials(g, [&](const auto&... law) {
+    state = merge_ranges(
+        g.blocks.ranges(), state,
+        [&](std::size_t first, std::size_t last) {
+          sweep::StepState part;
+          for (std::size_t i = first; i < last; ++i) {
+            const auto particle = engine.prepared_by(g, i, 0.0, law...);
+            part.speed = std::max(part.speed, dot(particle.velocity, particle.velocity));
+            if constexpr (particles::is_mobile<typename G::Mobility>)
+              part.acceleration = std::max(part.acceleration, g.template get<field::Acceleration>()[i].squaredNorm());
+            if constexpr (requires {
+                            particle.dynamic_viscosity;
+                            particle.density;
+                          })
+              part.kinematic_viscosity = std::max(part.kinematic_viscosity, particle.dynamic_viscosity / particle.density);
+            if constexpr (requires { particle.thermal_conductivity; })
+              part.thermal_conductivity = std::max(part.thermal_conductivity, particle.thermal_conductivity);
+            [[maybe_unused]] const auto one = [&](const auto& l) {
+              if constexpr (requires { l.sound_speed(particle); }) part.sound_speed = std::max(part.sound_speed, l.sound_speed(particle));
+              if constexpr (G::Mobility::evolves && requires {
+                              l.specific_heat();
+                              particle.density;
+                            })
+                part.heat_capacity = std::min(part.heat_capacity, particle.density * l.specific_heat());
+            };
+            (one(law), ...);
+          }
+          return part;
+        },
+        widest);
+  });
   state.speed = std::sqrt(state.speed);
   state.acceleration = std::sqrt(state.acceleration);
   return state;
@@ -139,14 +143,12 @@ template <class Integrator, class Engine>
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_interaction<I>) {
-      sweep::StepState both = state(std::type_identity<typename I::A>{});
-      const sweep::StepState other = state(std::type_identity<typename I::B>{});
-      both.speed = std::max(both.speed, other.speed);
-      both.acceleration = std::max(both.acceleration, other.acceleration);
-      both.sound_speed = std::max(both.sound_speed, other.sound_speed);
-      both.kinematic_viscosity = std::max(both.kinematic_viscosity, other.kinematic_viscosity);
-      both.mass = std::min(both.mass, other.mass);
-      std::apply([&](const auto&... law) { (law.step_limits(both, limit), ...); }, active.item.laws);
+      const sweep::StepState a = state(std::type_identity<typename I::A>{}), b = state(std::type_identity<typename I::B>{});
+      const auto one = [&](const auto& law) {
+        if constexpr (requires { law.step_limits(a, b, limit); }) law.step_limits(a, b, limit);
+        else law.step_limits(detail::widest(a, b), limit);
+      };
+      std::apply([&](const auto&... law) { (one(law), ...); }, active.item.laws);
     }
   });
   engine.for_each_group([&](const auto& g) {

@@ -21,23 +21,28 @@
 namespace dmp::simulation {
 
 namespace detail {
-template <class Item>
+template <int Dim, class Item>
 struct Active {  // materials and forcings need nothing beside themselves
   Item item;
 };
-template <class Item>
+template <int Dim, class Item>
   requires is_interaction<Item>
-struct Active<Item> {
+struct Active<Dim, Item> {
   Item item;
   neighbours::PairList of_a{}, of_b{};
   neighbours::Exclusions excluded_of_a{}, excluded_of_b{};
 };
-template <class Item>
+template <int Dim, class Item>
   requires is_bonds<Item>
-struct Active<Item> {
+struct Active<Dim, Item> {
   Item item;
   neighbours::BondList of_a{}, of_b{};
   sweep::Recall<decltype(Item::law)> recall{};
+};
+template <int Dim, class... Tag, class Law>
+struct Active<Dim, Summed<std::tuple<Tag...>, Law>> {
+  Summed<std::tuple<Tag...>, Law> item;
+  std::array<particles::Sums<Dim, typename Law::sums>, sizeof...(Tag)> sums{};
 };
 
 template <template <class> class Predicate, class... Item>
@@ -53,11 +58,11 @@ template <class... G, bool KeepsRates, class Precision, class... Item>
 struct Groups<std::tuple<G...>, KeepsRates, Precision, Item...> {
   using type = std::tuple<Group<G, Composition<G, KeepsRates, Item...>, Precision>...>;
 };
-template <class List>
+template <int Dim, class List>
 struct Actives;
-template <class... Item>
-struct Actives<std::tuple<Item...>> {
-  using type = std::tuple<Active<Item>...>;
+template <int Dim, class... Item>
+struct Actives<Dim, std::tuple<Item...>> {
+  using type = std::tuple<Active<Dim, Item>...>;
 };
 }  // namespace detail
 
@@ -86,6 +91,7 @@ class Model {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>) prepare_bonds(active);
       if constexpr (is_material<I>) set_constants(active.item);
+      if constexpr (is_summed<I>) check_summed(active.item);
     });
     prepare_exclusions();
   }
@@ -153,11 +159,13 @@ class Model {
     return found;
   }
 
+  [[nodiscard]] const auto& items() const noexcept { return items_; }
+
   geometry::Box<Dim> box_;
   std::array<double, Dim> periods_{};  // lengths of the periodic directions, 0 for the others
 
  private:
-  using Items = typename detail::Actives<detail::filter<detail::IsNotGroup, Item...>>::type;
+  using Items = typename detail::Actives<Dim, detail::filter<detail::IsNotGroup, Item...>>::type;
   template <bool Keep, class I>
   static auto keep(const I& item) {
     if constexpr (Keep) return std::tuple<I>(item);
@@ -168,7 +176,7 @@ class Model {
         []<class... G>(const G&... item) { return Groups{Group<G, Composition<G, KeepsRates, Item...>, Precision>(item)...}; }, items);
   }
   static Items make_items(const auto& items) {
-    return std::apply([]<class... I>(const I&... item) { return Items{detail::Active<I>{item}...}; }, items);
+    return std::apply([]<class... I>(const I&... item) { return Items{detail::Active<Dim, I>{item}...}; }, items);
   }
   template <class Active>
   void prepare_bonds(Active& active) {
@@ -184,6 +192,20 @@ class Model {
       if (!active.of_a.empty()) active.of_a.template remember<Dim>(a.positions(), b.positions(), box_);
       if (!active.of_b.empty()) active.of_b.template remember<Dim>(b.positions(), a.positions(), box_);
     }
+  }
+
+  template <class... Tag, class Law>
+  void check_summed(const Summed<std::tuple<Tag...>, Law>& summed) const {  // every list that it sweeps must reach far enough
+    for_each_item([&](const auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
+      if constexpr (is_interaction<I>)
+        if constexpr (((std::is_same_v<Tag, typename I::A> || std::is_same_v<Tag, typename I::B>) || ...))
+          require(summed.law.cutoff() <= active.item.cutoff(),
+                  ("summed: support radius must be <= the cut-off of the interaction of " + group<typename I::A>().name + " and " +
+                   group<typename I::B>().name + " (" + to_text(active.item.cutoff()) + " m)")
+                      .c_str(),
+                  summed.law.cutoff());
+    });
   }
 
   template <class I>

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdio>
 #include <memory>
+#include <type_traits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,30 +22,40 @@ class VtkOutput {
 
   template <class Scene>
   void operator()(Scene& scene) {
-    scene.engine().for_each_group([&](auto& group) { write(group, pressures(scene, group), scene.time()); });
+    scene.engine().for_each_group([&](auto& group) { write(group, derived(scene, group), scene.time()); });
     ++frame_;
   }
 
  private:
+  /// What material laws make of the state of each particle: pressure, temperature, viscosity, ...
+  struct Derived {
+    std::string name;
+    std::vector<double> values;
+  };
   template <class Scene, class Group>
-  [[nodiscard]] static std::vector<double> pressures(const Scene& scene, const Group& group) {
-    std::vector<double> pressure;
-    if constexpr (contains<field::PressureTerm, typename Group::Layout::prepared>)
+  [[nodiscard]] static std::vector<Derived> derived(const Scene& scene, const Group& group) {
+    std::vector<Derived> result;
+    for_each_field(typename Group::Layout::derived{}, [&]<class Field>(Field) {
+      constexpr bool is_pressure = std::is_same_v<Field, field::PressureTerm>;
+      Derived one{is_pressure ? "pressure [Pa]" : std::string(Field::name) + " [" + std::string(Field::unit) + "]", {}};
       for (std::size_t i = 0; i < group.size(); ++i) {
         const auto particle = scene.engine().prepared(group, i, 0.0);
-        pressure.push_back(particle.pressure_term * square(particle.density));
+        if constexpr (is_pressure) one.values.push_back(particle.pressure_term * square(particle.density));
+        else one.values.push_back(Field::of(particle));
       }
-    return pressure;
+      result.push_back(std::move(one));
+    });
+    return result;
   }
   template <class Group>
-  void write(Group& group, const std::vector<double>& pressure, double time) {
+  void write(Group& group, const std::vector<Derived>& derived, double time) {
     io::PointCloud<Group::Dim> cloud{.positions = group.positions(), .ids = group.id};
     const auto view = group.view();
     for (std::size_t column = 1; column < view.columns.size(); ++column) {
       const auto& values = view.columns[column];
       cloud.data.push_back({std::string(values.name) + " [" + std::string(values.unit) + "]", values.values, values.components});
     }
-    if (!pressure.empty()) cloud.data.push_back({"pressure [Pa]", pressure, 1});
+    for (const auto& one : derived) cloud.data.push_back({one.name, one.values, 1});
     char number[16];
     std::snprintf(number, sizeof number, "_%04d.vtp", frame_);
     const auto path = folder_ / (group.name + number);

@@ -29,6 +29,9 @@ inline constexpr bool names_groups<Groups, Material<std::tuple<Tag...>, Law...>>
 template <class Groups, class... Tag, class... Law>
 inline constexpr bool names_groups<Groups, Forced<std::tuple<Tag...>, Law...>> = (is_tag<Tag, Groups> && ...);
 
+template <class Groups, class... Tag, class Law>
+inline constexpr bool names_groups<Groups, Summed<std::tuple<Tag...>, Law>> = (is_tag<Tag, Groups> && ...);
+
 template <class X, class Y>
 inline constexpr bool same_pair = false;
 template <class A, class B, class... Law, class C, class D, class... Other>
@@ -48,6 +51,8 @@ template <int Dim, class Item>
 inline constexpr bool laws_fit = true;
 template <int Dim, class A, class B, class... Law>
 inline constexpr bool laws_fit<Dim, Interaction<A, B, Law...>> = (law_fits<Dim, Law>() && ...);
+template <int Dim, class Tags, class Law>
+inline constexpr bool laws_fit<Dim, Summed<Tags, Law>> = law_fits<Dim, Law>();
 template <int Dim, class Tags, class... Law>
 inline constexpr bool laws_fit<Dim, Forced<Tags, Law...>> = (forcing::explain_forcing<Law, Dim>() && ...);
 template <int Dim, class Tag, class M, int GroupDim>

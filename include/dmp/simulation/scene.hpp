@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 #include <dmp/core/simulation_error.hpp>
@@ -135,11 +136,12 @@ class Scene {
           clock_.tick();
           worn = engine_.begin_step(clock_.time_step, clock_.time);
         }
+        if (engine_.has_refused()) check_materials(clock_.time_step);
         if (worn) {
           check();
           engine_.build_lists(false);
         }
-        engine_.forces(clock_.time_step, clock_.time, worn);
+        engine_.forces(clock_.time_step, clock_.time, clock_.step, worn);
         if (!engine_.dashpots_converged())
           throw SimulationError("the dashpots of implicit_bonds have not been solved for: conjugate gradients did not converge",
                                 {clock_.time, clock_.step, "", -1, "", 0.0});
@@ -180,6 +182,14 @@ class Scene {
     return report;
   }
 
+  /// What a summed law finds now at each particle of a group, row by row, e.g. the density of the particles around, to be compared with
+  /// the density of the continuity equation: find_sums<Water>(sph::DensitySum<K>{...})[i].density.
+  template <class Tag, class Law>
+  [[nodiscard]] auto find_sums(const Law& law) {
+    prepare();
+    return engine_.template find_sums<Tag>(law);
+  }
+
   /// Writes everything that a bit-exact continuation needs. Also rebuilds the lists, so that this run and the restarted one go on alike.
   void checkpoint(const std::string& path) {
     prepare();
@@ -212,7 +222,7 @@ class Scene {
   void prepare() {
     if (prepared_) return;
     check_input();
-    engine_.evaluate(clock_.time);
+    engine_.evaluate(clock_.time, clock_.step);
     if (clock_.step == 0) reject_overlaps();
     prepared_ = true;
   }
@@ -300,6 +310,7 @@ class Scene {
     const Fault found = fault();
     if (!found.what.empty())
       throw SimulationError("a value " + found.what, {clock_.time, clock_.step, found.group, found.particle, found.field, found.value});
+    check_materials(0.0);
     engine_.for_each_item([this](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>) {
@@ -310,6 +321,22 @@ class Scene {
                                 {clock_.time, clock_.step, a.name, bond->i, "distance to " + b.name + " " + std::to_string(bond->j),
                                  neighbours::minimum_image<Dim>(a.positions()[bond->i] - b.positions()[bond->j], engine_.box()).norm()});
       }
+    });
+  }
+  /// Text of what a material law was given and cannot work with.
+  template <class Particle, class... Field>
+  [[nodiscard]] static std::string given(const Particle& particle, Fields<Field...>) {
+    std::string text;
+    ((text += (text.empty() ? "" : ", ") + std::string(Field::name) + " " + to_text(Field::of(particle)) + " " + std::string(Field::unit)), ...);
+    return text;
+  }
+  /// Every particle must be one that the material laws of its group can work with; `dt` [s] is the step under way.
+  void check_materials(double dt) const {
+    engine_.find_refused(dt, [this]<class... Field>(const auto& g, std::size_t i, const std::string& demand, const auto& particle, Fields<Field...> read) {
+      double value = 0.0;
+      std::string_view name;
+      ((value = Field::of(particle), name = Field::name), ...);
+      throw SimulationError(demand + ", got " + given(particle, read), {clock_.time, clock_.step, g.name, g.id[i], std::string(name), value});
     });
   }
   /// The state is whole and right: the last good one.
@@ -336,6 +363,9 @@ class Scene {
     if (!found.what.empty())
       throw ParameterError("scene: group " + found.group + ", particle " + std::to_string(found.particle) + ": " + found.field + " " +
                            found.what + ", got " + to_text(found.value));
+    engine_.find_refused(0.0, [](const auto& g, std::size_t i, const std::string& demand, const auto& particle, auto read) {
+      throw ParameterError("scene: group " + g.name + ", particle " + std::to_string(g.id[i]) + ": " + demand + ", got " + given(particle, read));
+    });
     engine_.for_each_item([this](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_interaction<I>) {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <dmp/core/field.hpp>
 #include <dmp/core/math.hpp>
 #include <dmp/core/pack.hpp>
@@ -18,7 +19,7 @@ template <int Dim, class T, class... Field>
 [[gnu::always_inline]] inline void set_zero(View<Dim, T, Fields<Field...>>& view, double zero = 0.0) noexcept {
   [[maybe_unused]] const auto one = [zero](auto& member) {
     if constexpr (requires { member.component; })
-      unrolled<Dim>([&](auto d) __attribute__((always_inline)) { member.component[d] = T(zero); });
+      unrolled<std::extent_v<decltype(member.component)>>([&](auto d) __attribute__((always_inline)) { member.component[d] = T(zero); });
     else member = T(zero);
   };
   (one(Field::of(view)), ...);

@@ -10,20 +10,23 @@
 
 namespace dmp::sweep {
 
+template <class L>
+concept StatesItsBounds = requires(const L law, const StepState state, StepLimit limit) { law.step_limits(state, limit); } ||
+                          requires(const L law, const StepState state, StepLimit limit) { law.step_limits(state, state, limit); };
 /// Contract of a pair law, what a gather sweep sums over the neighbours of a particle.
 ///   using reads  = Fields<...>      of both particles; their mass is always there
 ///   using writes = Fields<...>      rates of change: Acceleration, Force, DensityRate, ...
 ///   uses_velocity                   whether relative_velocity and approach are needed
 ///   cutoff()                        [m]; the law is exactly 0 beyond it
 ///   add(pair, i, j, sums)           adds what j does to i
-///   step_limits(state, limit)       states its bounds of the time step
+///   step_limits(state, limit)       states its bounds of the time step, from extremes over both groups; or
+///   step_limits(a, b, limit)        the same from the extremes over either group
 template <class L>
-concept PairLaw = std::is_trivially_copyable_v<L> && requires(const L law, const StepState state, StepLimit limit) {
+concept PairLaw = std::is_trivially_copyable_v<L> && StatesItsBounds<L> && requires(const L law) {
   typename L::reads;
   typename L::writes;
   { L::uses_velocity } -> std::convertible_to<bool>;
   { law.cutoff() } -> std::convertible_to<double>;
-  law.step_limits(state, limit);
 };
 
 template <class L>
@@ -41,7 +44,7 @@ consteval bool explain_pair_law() {
       },
       "dmp: not a PairLaw: no `double cutoff() const` [m]");
   static_assert(
-      requires(const L law, const StepState state, StepLimit limit) { law.step_limits(state, limit); },
+      StatesItsBounds<L>,
       "dmp: not a PairLaw: no `void step_limits(const StepState&, StepLimit&) const`, its bounds of the time step");
   return PairLaw<L>;
 }

@@ -1,17 +1,23 @@
 #pragma once
 #include <concepts>
+#include <string>
 #include <type_traits>
+#include <utility>
+#include <variant>
 #include <dmp/core/field.hpp>
 #include <dmp/core/math.hpp>
 #include <dmp/core/require.hpp>
 #include <dmp/eos/concept.hpp>
+#include <dmp/rheology/concept.hpp>
+#include <dmp/thermal/concept.hpp>
 
 namespace dmp::sweep {
 
 /// Contract of a particle law, a property of the material that is evaluated once per particle and step, before the pairs.
 ///   using reads  = Fields<...>   what it needs; Fields<> makes it a constant of the group, which takes no memory
-///   using writes = Fields<...>   what it sets
-///   apply(particle)              sets the written members of `particle` from the read ones
+///   using writes = Fields<...>   what it can set
+///   apply(particle)              sets the written members of `particle` from the read ones; members that nobody reads are not there
+///   admits(particle), demand()   only of a law with a limited range: whether it can work with a particle, and what it asks for
 template <class L>
 concept ParticleLaw = std::is_trivially_copyable_v<L> && requires(const L law) {
   typename L::reads;
@@ -25,31 +31,53 @@ consteval bool explain_particle_law() {
         typename L::reads;
         typename L::writes;
       },
-      "dmp: not a material law: neither an EquationOfState, nor a viscosity(temperature), nor a ParticleLaw with `using reads = "
-      "Fields<...>;` and `using writes = Fields<...>;`");
+      "dmp: not a material law: neither an EquationOfState, nor a ThermalLaw, nor a viscosity(temperature), nor an "
+      "apparent_viscosity(shear_rate), nor a ParticleLaw with `using reads = Fields<...>;` and `using writes = Fields<...>;`");
   return ParticleLaw<L>;
 }
 
-/// An equation of state as a particle law: sets p / rho^2.
+/// An equation of state as a particle law: sets p / rho^2, the sound speed, and the temperature if it knows one.
 template <class E>
 struct PressureFrom {
-  using reads = std::conditional_t<eos::EquationOfState<E>, Fields<field::Density>, Fields<field::Density, field::SpecificEnergy>>;
-  using writes = Fields<field::PressureTerm>;
+  static constexpr bool is_thermal = !eos::EquationOfState<E>;
+  static constexpr bool has_temperature = requires(const E eos, double x) { eos.temperature(x, x); };
+  using reads = std::conditional_t<is_thermal, Fields<field::Density, field::SpecificEnergy>, Fields<field::Density>>;
+  using writes = unite<Fields<field::PressureTerm, field::SoundSpeed>,
+                       std::conditional_t<has_temperature, Fields<field::Temperature>, Fields<>>>;
   E eos;
 
   template <class Particle>
   void apply(Particle& particle) const noexcept {
-    particle.pressure_term = pressure(particle) / square(particle.density);
+    if constexpr (requires { particle.pressure_term; }) particle.pressure_term = pressure(particle) / square(particle.density);
+    if constexpr (requires { particle.sound_speed; }) particle.sound_speed = sound_speed(particle);
+    if constexpr (has_temperature && requires { particle.temperature; })
+      particle.temperature = eos.temperature(particle.density, particle.specific_energy);
   }
   template <class Particle>
   [[nodiscard]] auto pressure(const Particle& particle) const noexcept {
-    if constexpr (eos::EquationOfState<E>) return eos.pressure(particle.density);
-    else return eos.pressure(particle.density, particle.specific_energy);
+    if constexpr (is_thermal) return eos.pressure(particle.density, particle.specific_energy);
+    else return eos.pressure(particle.density);
   }
   template <class Particle>
   [[nodiscard]] auto sound_speed(const Particle& particle) const noexcept {
-    if constexpr (eos::EquationOfState<E>) return eos.sound_speed(particle.density);
-    else return eos.sound_speed(particle.density, particle.specific_energy);
+    if constexpr (is_thermal) return eos.sound_speed(particle.density, particle.specific_energy);
+    else return eos.sound_speed(particle.density);
+  }
+  [[nodiscard]] double specific_heat() const noexcept
+    requires requires(const E e) { e.specific_heat(); }
+  {
+    return eos.specific_heat();
+  }
+  template <class Particle>
+  [[nodiscard]] bool admits(const Particle& particle) const noexcept
+    requires requires(const E e, double x) { e.admits(x, x); }
+  {
+    return eos.admits(particle.density, particle.specific_energy);
+  }
+  [[nodiscard]] std::string demand() const
+    requires requires(const E e) { e.demand(); }
+  {
+    return eos.demand();
   }
 };
 template <class E>
@@ -57,34 +85,67 @@ void validate(const PressureFrom<E>& law) {
   check_parameters(law.eos);
 }
 
-/// A law mu(T) of the viscosity [Pa s] over the temperature [K], as a particle law: `T viscosity(T temperature) const`.
-template <class L>
-concept ViscosityOfTemperature = std::is_trivially_copyable_v<L> && requires(const L law, double temperature) {
-  { law.viscosity(temperature) } -> std::same_as<double>;
-};
-template <ViscosityOfTemperature L>
-struct ViscosityFrom {
-  using reads = Fields<field::Temperature>;
-  using writes = Fields<field::DynamicViscosity>;
+/// A law of one number of the particle, which it may restrict to a range: the base of the three below.
+template <class L, class Read, class Write>
+struct PropertyFrom {
+  using reads = Fields<Read>;
+  using writes = Fields<Write>;
   L law;
 
   template <class Particle>
-  void apply(Particle& particle) const noexcept {
-    particle.dynamic_viscosity = law.viscosity(particle.temperature);
+  [[nodiscard]] bool admits(const Particle& particle) const noexcept
+    requires requires(const L l, double x) { l.admits(x); }
+  {
+    return law.admits(Read::of(particle));
+  }
+  [[nodiscard]] std::string demand() const
+    requires requires(const L l) { l.demand(); }
+  {
+    return law.demand();
   }
 };
-template <class L>
-void validate(const ViscosityFrom<L>& law) {
+/// T(e), mu(T) and mu(shear rate) as particle laws.
+template <thermal::ThermalLaw L>
+struct TemperatureFrom : PropertyFrom<L, field::SpecificEnergy, field::Temperature> {
+  template <class Particle>
+  void apply(Particle& particle) const noexcept {
+    if constexpr (requires { particle.temperature; }) particle.temperature = this->law.temperature(particle.specific_energy);
+  }
+  [[nodiscard]] double specific_heat() const noexcept { return this->law.specific_heat(); }
+};
+template <rheology::ViscosityOfTemperature L>
+struct ViscosityFrom : PropertyFrom<L, field::Temperature, field::DynamicViscosity> {
+  template <class Particle>
+  void apply(Particle& particle) const noexcept {
+    if constexpr (requires { particle.dynamic_viscosity; }) particle.dynamic_viscosity = this->law.viscosity(particle.temperature);
+  }
+};
+template <rheology::ViscosityOfShearRate L>
+struct ApparentViscosityFrom : PropertyFrom<L, field::ShearRate, field::DynamicViscosity> {
+  template <class Particle>
+  void apply(Particle& particle) const noexcept {
+    if constexpr (requires { particle.dynamic_viscosity; }) particle.dynamic_viscosity = this->law.apparent_viscosity(particle.shear_rate);
+  }
+};
+template <class L, class Read, class Write>
+void validate(const PropertyFrom<L, Read, Write>& law) {
   check_parameters(law.law);
 }
+
+template <class... L>
+struct ChosenOf;
 
 /// What a material holds for a law that its user named.
 template <class L>
 [[nodiscard]] constexpr auto as_particle_law(const L& law) {
   if constexpr (eos::EquationOfState<L> || eos::ThermalEquationOfState<L>) {
     return PressureFrom<L>{law};
-  } else if constexpr (ViscosityOfTemperature<L>) {
-    return ViscosityFrom<L>{law};
+  } else if constexpr (thermal::ThermalLaw<L>) {
+    return TemperatureFrom<L>{{law}};
+  } else if constexpr (rheology::ViscosityOfTemperature<L>) {
+    return ViscosityFrom<L>{{law}};
+  } else if constexpr (rheology::ViscosityOfShearRate<L>) {
+    return ApparentViscosityFrom<L>{{law}};
   } else {
     if constexpr (
         requires { law.rest_density; } || requires { law.pressure(1.0); })
@@ -93,5 +154,41 @@ template <class L>
     return law;
   }
 }
+
+/// One of several laws, chosen at run time. It is looked up once per pass over the particles, never per particle.
+template <class... L>
+struct ChosenOf {
+  using reads = unite<typename L::reads...>;
+  using writes = unite<typename L::writes...>;
+  std::variant<L...> choice;
+};
+template <class... L>
+[[nodiscard]] constexpr auto as_particle_law(const std::variant<L...>& choice) {
+  using Chosen = ChosenOf<decltype(as_particle_law(std::declval<L>()))...>;
+  return std::visit([](const auto& law) { return Chosen{{as_particle_law(law)}}; }, choice);
+}
+template <class... L>
+void validate(const ChosenOf<L...>& chosen) {
+  std::visit([](const auto& law) { check_parameters(law); }, chosen.choice);
+}
+
+/// Calls function(laws...) with the laws themselves: of each ChosenOf the one that has been chosen.
+template <class Function>
+void with_chosen(Function&& function) {
+  function();
+}
+template <class Function, class First, class... Rest>
+void with_chosen(Function&& function, const First& first, const Rest&... rest) {
+  const auto go_on = [&](const auto& law) { with_chosen([&](const auto&... others) { function(law, others...); }, rest...); };
+  if constexpr (requires { first.choice; }) std::visit(go_on, first.choice);
+  else go_on(first);
+}
+
+/// Whether a law restricts the particles it can work with.
+template <class L, class Particle>
+concept Restricted = requires(const L law, const Particle particle) {
+  law.admits(particle);
+  law.demand();
+};
 
 }  // namespace dmp::sweep

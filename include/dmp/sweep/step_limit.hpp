@@ -10,6 +10,8 @@ struct StepState {
   double acceleration = 0.0;                              ///< largest |a| [m/s^2]
   double sound_speed = 0.0;                               ///< largest c [m/s]
   double kinematic_viscosity = 0.0;                       ///< largest mu/rho [m^2/s]
+  double thermal_conductivity = 0.0;                      ///< largest kappa [W/(m K)]
+  double heat_capacity = std::numeric_limits<double>::infinity();  ///< smallest rho c [J/(m^3 K)]; infinite where nothing evolves
   double mass = std::numeric_limits<double>::infinity();  ///< smallest particle mass [kg]; infinite where nothing moves
   double oscillation_limit = 2.0;                         ///< stable for omega dt < this
   double damping_limit = 1.0;                             ///< stable for lambda dt < this (velocities)

@@ -1,6 +1,6 @@
 #pragma once
 #include <dmp/core/field.hpp>
-#include <dmp/viscosity/mean.hpp>
+#include <dmp/core/mean.hpp>
 
 namespace dmp::viscosity {
 

@@ -1,15 +1,15 @@
 #pragma once
 
-namespace dmp::viscosity {
+namespace dmp {
 
-/// How two unequal viscosities make the viscosity of a pair; both give 2 mu when they are equal.
+/// How two unequal viscosities, or conductivities, make that of a pair; both give 2 mu when they are equal.
 struct ArithmeticMean {
   template <class T>
-  [[nodiscard]] static T twice(const T& a, const T& b) noexcept {  // mu_i + mu_j [Pa s]
+  [[nodiscard]] static T twice(const T& a, const T& b) noexcept {  // mu_i + mu_j
     return a + b;
   }
 };
-/// 4 mu_i mu_j/(mu_i + mu_j): keeps the shear stress continuous where the viscosity jumps. 0 when both are 0.
+/// 4 mu_i mu_j/(mu_i + mu_j): keeps the flux of momentum or heat continuous where the coefficient jumps. 0 when both are 0.
 /// P. W. Cleary, J. J. Monaghan, J. Comput. Phys. 148 (1999) 227-264, doi:10.1006/jcph.1998.6118, eq. 28 (written for heat).
 struct HarmonicMean {
   template <class T>
@@ -18,4 +18,4 @@ struct HarmonicMean {
   }
 };
 
-}  // namespace dmp::viscosity
+}  // namespace dmp
