@@ -1,6 +1,7 @@
 #pragma once
 // Scenes: groups, what they do to each other, the run, and what is seen of it.
 #include <dmp/simulation/composition.hpp>  // From the items of a scene to what each group must hold, at compile time.
+#include <dmp/simulation/dashpots.hpp>     // Dashpots of implicit_bonds.
 #include <dmp/simulation/describe.hpp>     // What a scene consists of: columns, records, interactions, sweeps, binding law.
 #include <dmp/simulation/engine.hpp>       // One time step.
 #include <dmp/simulation/forces.hpp>       // Records, then sums over pairs and bonds.

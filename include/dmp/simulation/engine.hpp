@@ -4,15 +4,16 @@
 #include <cstdint>
 #include <utility>
 #include <dmp/core/threads.hpp>
-#include <dmp/simulation/forces.hpp>
+#include <dmp/integrator/leapfrog.hpp>
+#include <dmp/simulation/dashpots.hpp>
 
 namespace dmp::simulation {
 
 /// One time step of a model: begin, lists when needed, forces, end. Knows neither output nor the length of the run.
 template <int Dim, class Integrator, class Precision, class... Item>
-class Engine : public Forces<Dim, Integrator, Precision, Item...> {
+class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
   static_assert(integrator::explain_integrator<Integrator>());
-  using Base = Forces<Dim, Integrator, Precision, Item...>;
+  using Base = Dashpots<Dim, Integrator, Precision, Item...>;
 
  public:
   using Base::Base, Base::group, Base::for_each_group, Base::for_each_item, Base::has_pairs;
@@ -23,8 +24,15 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
     }() || ...);
   }();
 
+  static constexpr bool has_dashpots = Base::has_dashpots;
+  static_assert(!has_dashpots || std::is_same_v<Integrator, integrator::Leapfrog>, "dmp: implicit_bonds need integrator::Leapfrog");
+  static_assert(!has_dashpots || !has_substeps, "dmp: implicit_bonds and substepped_bonds do not go together in one scene");
+
   /// How often sub-stepped bonds are evaluated per step.
   void set_substeps(int substeps) noexcept { substeps_ = substeps; }
+
+  /// The next step is the first one, whose accelerations are still without the dashpots that are solved for.
+  void start_afresh() noexcept { fresh_ = true; }
 
   /// Accelerations and rates from the present state, e.g. before the first step; `time` [s] as forcings see it, `step` as summed laws do.
   void evaluate(double time, std::uint64_t step) {
@@ -34,6 +42,7 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
     this->gather_summed(step, 0.0);
     if constexpr (has_substeps) this->fast_forces(0.0);
     this->gather_all(time, 0.0);
+    start_afresh();
     if constexpr (Integrator::keeps_rates)
       for_each_group([](auto& g) {
         for_each_field(typename LayoutOf<decltype(g)>::rates{},
@@ -44,6 +53,9 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
   /// First part of a step of length `dt` [s] that ends at `time` [s]: everything moves. Returns whether neighbour lists are worn out, so
   /// that build_lists must be called before `prepare_forces`.
   [[nodiscard]] bool begin_step(double dt, double time) {
+    if constexpr (has_dashpots)
+      if (fresh_) this->add_dashpots(dt);
+    fresh_ = false;
     if constexpr (has_substeps) begin_with_substeps(dt, time);
     else for_each_group([&](auto& g) { pass(g, 0.0, dt, time); });
     return this->lists_are_worn();
@@ -54,7 +66,10 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
     this->gather_summed(step, dt);
   }
   /// Third part: forces.
-  void forces(double dt, double time) { this->gather_all(time, dt); }
+  void forces(double dt, double time) {
+    this->gather_all(time, dt);
+    if constexpr (has_dashpots) this->add_dashpots(dt);
+  }
   /// Last part: the end of the step.
   void end_step(double dt) {
     for_each_group([&](auto& g) { pass(g, dt, 0.0, 0.0); });
@@ -197,6 +212,7 @@ class Engine : public Forces<Dim, Integrator, Precision, Item...> {
   }
 
   int substeps_ = 1;
+  bool fresh_ = false;
 };
 
 }  // namespace dmp::simulation

@@ -210,6 +210,23 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
         }
       });
   }
+  /// Adds the force of the bonds of particle i to its row of sums, and the reactions to the rows of its partners if they are of this group.
+  template <class Source, class G, class Add, class Law, class Memory>
+  [[gnu::always_inline]] void bonds(const G& g, std::size_t i, const neighbours::BondList& list, const Add& add, const Law& law,
+                                    const Memory& memory) const noexcept {
+    const auto& source = this->template group<Source>();
+    using Partners = typename std::remove_cvref_t<decltype(source)>::Records;
+    const sweep::BondRecords records{g.records.data() + i * G::Records::stride, source.records.data(), Partners::stride};
+    const auto plus = [&add](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
+      double* const to = add.data + row * static_cast<std::size_t>(G::Sums::stride);
+      sweep::Row<Dim>::load(to).plus(factor, vector).store(to);
+    };
+    const auto react = [&](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
+      if constexpr (std::is_same_v<Source, typename G::Tag>) plus(row, factor, vector);
+    };
+    if (list.crosses(i)) plus(i, 1.0, sweep::sum_bonds<Dim, true>(records, list.of(i), bond_periods_, react, law, memory));
+    else plus(i, 1.0, sweep::sum_bonds<Dim, false>(records, list.of(i), bond_periods_, react, law, memory));
+  }
 
  private:
   /// The memories of bonds of one phase are about to be carried over a step of `dt`.
@@ -286,23 +303,6 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     const auto source = this->template group<Source>().reader();
     if constexpr (Within && Precision::pairs_once) sweep::sum_pairs_of_both<Dim>(self, source, neighbours, sums, add, law...);
     else sweep::sum_pairs<Dim>(self, source, neighbours, sums, law...);
-  }
-  /// Adds the force of the bonds of particle i to its row of sums, and the reactions to the rows of its partners if they are of this group.
-  template <class Source, class G, class Add, class Law, class Memory>
-  [[gnu::always_inline]] void bonds(const G& g, std::size_t i, const neighbours::BondList& list, const Add& add, const Law& law,
-                                    const Memory& memory) const noexcept {
-    const auto& source = this->template group<Source>();
-    using Partners = typename std::remove_cvref_t<decltype(source)>::Records;
-    const sweep::BondRecords records{g.records.data() + i * G::Records::stride, source.records.data(), Partners::stride};
-    const auto plus = [&add](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
-      double* const to = add.data + row * static_cast<std::size_t>(G::Sums::stride);
-      sweep::Row<Dim>::load(to).plus(factor, vector).store(to);
-    };
-    const auto react = [&](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
-      if constexpr (std::is_same_v<Source, typename G::Tag>) plus(row, factor, vector);
-    };
-    if (list.crosses(i)) plus(i, 1.0, sweep::sum_bonds<Dim, true>(records, list.of(i), bond_periods_, react, law, memory));
-    else plus(i, 1.0, sweep::sum_bonds<Dim, false>(records, list.of(i), bond_periods_, react, law, memory));
   }
 
   template <class I, class Function>

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 #include <dmp/bond/concept.hpp>
+#include <dmp/bond/harmonic.hpp>
+#include <dmp/bond/kelvin_voigt.hpp>
 #include <dmp/core/field.hpp>
 #include <dmp/core/require.hpp>
 #include <dmp/forcing/concept.hpp>
@@ -68,6 +70,12 @@ template <class A, class B, class... Law>
   return Interaction<A, B, decltype(sweep::as_pair_law(law))...>{{sweep::as_pair_law(law)...}};
 }
 
+/// Kelvin-Voigt bonds as forces see them: springs. What their dashpots do, which may be too stiff for forces, is in dashpots.hpp.
+struct ImplicitKelvinVoigt : bond::Harmonic {
+  bond::KelvinVoigt dashpot;
+  double tolerance;
+};
+
 /// Bonds within one group, or between two.
 template <class A_, class B_, class Law, bool Substepped>
 struct Bonds {
@@ -75,7 +83,7 @@ struct Bonds {
   using B = B_;
   using reads = Fields<>;
   using writes = Fields<field::Force>;
-  static constexpr bool uses_velocity = bond::UsesVelocity<Law>;
+  static constexpr bool uses_velocity = bond::UsesVelocity<Law> || std::is_same_v<Law, ImplicitKelvinVoigt>;
   static constexpr bool substepped = Substepped;
   Law law;
   std::vector<neighbours::Bond> bonds;
@@ -96,6 +104,15 @@ template <class A, class B, class Law>
   check_parameters(law);
   require(substeps >= 0, "substepped_bonds: substeps must be >= 0 (0: as many as stability asks for)", substeps);
   return Bonds<A, B, Law, true>{law, std::move(list), substeps};
+}
+
+/// Kelvin-Voigt bonds whose dashpots, however stiff, do not limit the step: only the springs do. They are solved for, to a residual that
+/// is `tolerance` of the first one (dashpots.hpp). Needs integrator::Leapfrog.
+template <class A, class B>
+[[nodiscard]] auto implicit_bonds(const bond::KelvinVoigt& law, std::vector<neighbours::Bond> list, double tolerance = 1e-12) {
+  check_parameters(law);
+  require(tolerance > 0.0 && tolerance < 1.0, "implicit_bonds: tolerance must be > 0 and < 1", tolerance);
+  return Bonds<A, B, ImplicitKelvinVoigt, false>{{{law.stiffness}, {.stiffness = 0.0, .damping = law.damping}, tolerance}, std::move(list)};
 }
 
 template <class Tags, class... Law>

@@ -144,6 +144,9 @@ class Scene {
         engine_.prepare_forces(clock_.time_step, clock_.step, worn);
         if (engine_.has_refused()) check_materials(clock_.time_step);  // of what has been summed over neighbours, or sub-stepped
         engine_.forces(clock_.time_step, clock_.time);
+        if (!engine_.dashpots_converged())
+          throw SimulationError("the dashpots of implicit_bonds have not been solved for: conjugate gradients did not converge",
+                                {clock_.time, clock_.step, "", -1, "", 0.0});
         ++report.steps;
         // Where nobody looks at the state between two steps, the end of one and the beginning of the next are one pass.
         const bool checks = clock_.step % options.check_every == 0, chooses = options.time_step == 0.0 && clock_.step % 10 == 0;
@@ -200,6 +203,7 @@ class Scene {
     clock_ = read_checkpoint(path, signature(), views());
     for (auto& observer : observers_) observer.done = due(observer);
     engine_.build_lists(true);
+    if (clock_.step == 0) engine_.start_afresh();
     if constexpr (has_substeps)
       if (clock_.time_step > 0.0) engine_.set_substeps(substeps_for<Integrator>(engine_, clock_.time_step));
     prepared_ = true;

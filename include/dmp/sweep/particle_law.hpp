@@ -149,8 +149,9 @@ template <class L>
     return ApparentViscosityFrom<L>{{law}};
   } else {
     if constexpr (
-        requires { law.rest_density; } || requires { law.pressure(1.0); })
+        requires { law.rest_density; } || requires { law.pressure(1.0); } || requires { law.pressure(1.0, 1.0); })
       static_assert(eos::explain_equation_of_state<L>());
+    else if constexpr (requires { law.temperature(1.0); }) static_assert(thermal::explain_thermal_law<L>());
     else static_assert(explain_particle_law<L>());
     return law;
   }
