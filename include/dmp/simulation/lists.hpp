@@ -24,7 +24,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
   using Base::for_each_group, Base::for_each_item, Base::has_pairs;
 
   Lists(const geometry::Box<Dim>& box, const Item&... item) : Base(box, item...) {
-    for_each_item([this](const auto& active) {
+    for_each_item([&](const auto& active) {
       if constexpr (is_interaction<std::remove_cvref_t<decltype(active.item)>>)
         longest_cutoff_ = std::max(longest_cutoff_, active.item.cutoff());
     });

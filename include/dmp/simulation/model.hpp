@@ -87,7 +87,7 @@ class Model {
     validate(box);
     for (int d = 0; d < Dim; ++d)
       periods_[static_cast<std::size_t>(d)] = box.periodic[static_cast<std::size_t>(d)] ? box.upper[d] - box.lower[d] : 0.0;
-    for_each_item([this](auto& active) {
+    for_each_item([&](auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>) prepare_bonds(active);
       if constexpr (is_material<I>) set_constants(active.item);

@@ -255,7 +255,7 @@ class Scene {
 
   /// Particles closer than half their spacing at the start are a fill done twice, or two fills that overlap.
   void reject_overlaps() const {
-    engine_.for_each_item([this](const auto& active) {
+    engine_.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_interaction<I>) {
         reject_overlap(engine_.template group<typename I::A>(), engine_.template group<typename I::B>(), active.of_a);
@@ -314,7 +314,7 @@ class Scene {
     if (!found.what.empty())
       throw SimulationError("a value " + found.what, {clock_.time, clock_.step, found.group, found.particle, found.field, found.value});
     check_materials(0.0);
-    engine_.for_each_item([this](const auto& active) {
+    engine_.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>) {
         const auto& a = engine_.template group<typename I::A>();
@@ -366,7 +366,7 @@ class Scene {
     if (!found.what.empty())
       throw ParameterError("scene: group " + found.group + ", particle " + std::to_string(found.particle) + ": " + found.field + " " +
                            found.what + ", got " + to_text(found.value));
-    engine_.for_each_item([this](const auto& active) {
+    engine_.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_interaction<I>) {
         const auto& a = engine_.template group<typename I::A>();
