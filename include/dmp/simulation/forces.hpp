@@ -244,6 +244,12 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     (one(Field{}), ...);
   }
 
+  /// How far the lists of a block must be read.
+  template <class G>
+  static std::size_t level_of([[maybe_unused]] const G& g, [[maybe_unused]] std::size_t block) noexcept {
+    if constexpr (LayoutOf<G>::has_pairs) return g.level[block];
+    else return 0;
+  }
   /// What the items say of particle i, which lies in `block`: pairs and bonds of one phase.
   template <bool Fast, class G, class Sums, class Add>
   [[gnu::always_inline]] void sum_items(const G& g, std::size_t block, std::size_t i, Sums& sums, const Add& add) const noexcept {
@@ -255,9 +261,9 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
         std::apply(
             [&](const auto&... law) __attribute__((always_inline)) {
               if constexpr (std::is_same_v<Tag, typename I::A>)
-                pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, g.level[block]), sums, add, law...);
+                pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add, law...);
               else if constexpr (std::is_same_v<Tag, typename I::B>)
-                pairs<typename I::A, false>(self, active.of_b.of(block, i, g.level[block]), sums, add, law...);
+                pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
             },
             active.item.laws);
       if constexpr (is_bonds<I>)
@@ -321,9 +327,9 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
           using I = std::remove_cvref_t<decltype(active.item)>;
           if constexpr (is_interaction<I>) {
             if constexpr (std::is_same_v<typename G::Tag, typename I::A>)
-              pairs<typename I::B, std::is_same_v<typename I::A, typename I::B>>(self, active.of_a.of(block, i, g.level[block]), sums, add, law);
+              pairs<typename I::B, std::is_same_v<typename I::A, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add, law);
             else if constexpr (std::is_same_v<typename G::Tag, typename I::B>)
-              pairs<typename I::A, false>(self, active.of_b.of(block, i, g.level[block]), sums, add, law);
+              pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law);
           }
         });
         View<Dim, double, unite<typename C::seen, typename Law::sets>> particle;

@@ -51,13 +51,11 @@ template <class Integrator, class Engine, class G>
               part.kinematic_viscosity = std::max(part.kinematic_viscosity, particle.dynamic_viscosity / particle.density);
             if constexpr (requires { particle.thermal_conductivity; })
               part.thermal_conductivity = std::max(part.thermal_conductivity, particle.thermal_conductivity);
+            constexpr bool has_heat = G::Mobility::evolves && requires { particle.density; };
             [[maybe_unused]] const auto one = [&](const auto& l) {
               if constexpr (requires { l.sound_speed(particle); }) part.sound_speed = std::max(part.sound_speed, l.sound_speed(particle));
-              if constexpr (G::Mobility::evolves && requires {
-                              l.specific_heat();
-                              particle.density;
-                            })
-                part.heat_capacity = std::min(part.heat_capacity, particle.density * l.specific_heat());
+              if constexpr (has_heat)
+                if constexpr (requires { l.specific_heat(); }) part.heat_capacity = std::min(part.heat_capacity, particle.density * l.specific_heat());
             };
             (one(law), ...);
           }

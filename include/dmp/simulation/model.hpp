@@ -85,7 +85,7 @@ class Model {
     validate(box);
     for (int d = 0; d < Dim; ++d)
       periods_[static_cast<std::size_t>(d)] = box.periodic[static_cast<std::size_t>(d)] ? box.upper[d] - box.lower[d] : 0.0;
-    for_each_item([this](auto& active) {
+    for_each_item([&](auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>) prepare_bonds(active);
       if constexpr (is_material<I>) set_constants(active.item);
@@ -216,8 +216,8 @@ class Model {
             [&g](const auto&... law) {
               const auto one = [&g]<class L>(const L& l) {
                 if constexpr (intersect<typename L::writes, typename Layout::constants>::count > 0) l.apply(g.constants);
-                if constexpr (requires { l.eos.rest_density; } && contains<field::Density, typename Layout::columns>)
-                  g.template get<field::Density>().assign(g.size(), l.eos.rest_density);
+                if constexpr (contains<field::Density, typename Layout::columns>)  // two conditions: for Clang 14
+                  if constexpr (requires { l.eos.rest_density; }) g.template get<field::Density>().assign(g.size(), l.eos.rest_density);
               };
               sweep::with_chosen([&one](const auto&... chosen) { (one(chosen), ...); }, law...);
             },
