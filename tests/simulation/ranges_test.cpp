@@ -161,7 +161,7 @@ auto sheared(double fastest, double shear_rate = 0.0) {
 }  // namespace
 
 TEST_CASE("a law of a summed property stops the run in the step whose sums it cannot work with, not one later; at the start that is an error of the input") {
-  for (const std::uint64_t check_every : {1, 100}) {
+  for (const std::uint64_t check_every : {std::uint64_t{1}, std::uint64_t{100}}) {
     auto scene = sheared(1.03);  // the shear rate is 8 t: 1.0625 after step 17
     bool caught = false;
     try {

@@ -222,8 +222,8 @@ class Model {
             [&g](const auto&... law) {
               const auto one = [&g]<class L>(const L& l) {
                 if constexpr (intersect<typename L::writes, typename Layout::constants>::count > 0) l.apply(g.constants);
-                if constexpr (requires { l.eos.rest_density; } && contains<field::Density, typename Layout::columns>)
-                  g.template get<field::Density>().assign(g.size(), l.eos.rest_density);
+                if constexpr (contains<field::Density, typename Layout::columns>)  // two conditions: for Clang 14
+                  if constexpr (requires { l.eos.rest_density; }) g.template get<field::Density>().assign(g.size(), l.eos.rest_density);
               };
               sweep::with_chosen([&one](const auto&... chosen) { (one(chosen), ...); }, law...);
             },
