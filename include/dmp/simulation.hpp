@@ -11,7 +11,7 @@
 #include <dmp/simulation/lists.hpp>        // Who is near whom, and when lists are worn.
 #include <dmp/simulation/model.hpp>        // Groups and items of a scene.
 #include <dmp/simulation/output.hpp>       // VtkOutput: all groups for ParaView.
-#include <dmp/simulation/probe.hpp>        // A field at a point, from the particles around it.
+#include <dmp/simulation/probe.hpp>        // Looking in: a field at a point, bonds of length zero.
 #include <dmp/simulation/progress.hpp>     // Bar with the time left.
 #include <dmp/simulation/rules.hpp>        // What the items of a scene must agree on.
 #include <dmp/simulation/scene.hpp>        // scene, run, observers, checkpoint and restart.

@@ -306,6 +306,7 @@ TEST_CASE("a bond of length zero has no direction: no force, everything finite, 
   auto coincident = net({{0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}}, {{0, 1, 0.5}}, law);
   coincident.run({.until = 1.0, .time_step = 0.01});
   for (const auto& x : coincident.group<Net>().positions()) CHECK(x == Vector<3>(0.1, 0.2, 0.3));
+  CHECK(count_zero_length_bonds(coincident) == 1);
 
   // Three more bonds fill the vector register of bead 0, whose other bonds hold it: nothing leaks from lane to lane.
   const Beads star{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
@@ -313,6 +314,8 @@ TEST_CASE("a bond of length zero has no direction: no force, everything finite, 
   auto without = net(star, rays, law), with = net(star, all, law);
   CHECK(std::isfinite(with.step_limit().time_step));
   CHECK(std::isfinite(without.step_limit().time_step));
+  CHECK(count_zero_length_bonds(with) == 1);
+  CHECK(count_zero_length_bonds(without) == 0);
   for (std::size_t k = 0; k < 5; ++k)
     CHECK((with.group<Net>().get<field::Acceleration>()[k] - without.group<Net>().get<field::Acceleration>()[k]).norm() <= 1e-15);
   CHECK(with.group<Net>().get<field::Acceleration>()[0].norm() == doctest::Approx(4.0 * 0.1 * std::numbers::sqrt3));
@@ -384,13 +387,13 @@ TEST_CASE("the stiffness bound is where it ends: a ring is stable at 0.95 of it,
   auto ring = zigzag({{.stiffness = 100.0, .damping = 0.0}});
   const auto limit = ring.step_limit();
   CHECK(limit.stable_time_step == doctest::Approx(2.0 / std::sqrt(4.0 * 100.0)).epsilon(1e-14));
-  CHECK(limit.stability_bound_by == "bond stiffness");
+  CHECK(limit.stability_bound_by == "bond stiffness of net");
   double largest = 0.0;
   ring.every(limit.time_step, [&](const auto& scene) { largest = std::max(largest, largest_displacement(scene)); });
   ring.run({.until = 10000.0 * limit.time_step, .time_step = 0.95 * limit.time_step});
   CHECK(largest <= 1e-3 / std::sqrt(1.0 - 0.95 * 0.95) * 1.01);  // shadow energy
 
-  CHECK_THROWS_WITH_AS(zigzag({{.stiffness = 100.0, .damping = 0.0}}).run({.until = 1e3, .time_step = 0.101}), "scene: time_step must be <= 0.1 s, the bound of bond stiffness, got 0.101",
+  CHECK_THROWS_WITH_AS(zigzag({{.stiffness = 100.0, .damping = 0.0}}).run({.until = 1e3, .time_step = 0.101}), "scene: time_step must be <= 0.1 s, the bound of bond stiffness of net, got 0.101",
                        ParameterError);
 
   auto careless = zigzag({{.stiffness = 100.0, .damping = 0.0}, 0.5});
@@ -424,7 +427,7 @@ TEST_CASE("the dashpot bound is where it ends") {
   kick(ring);
   const auto limit = ring.step_limit();
   CHECK(limit.stable_time_step == doctest::Approx(2.0 / 400.0).epsilon(1e-14));
-  CHECK(limit.stability_bound_by == "bond dashpot");
+  CHECK(limit.stability_bound_by == "bond dashpot of net");
   ring.run({.until = 400.0 * limit.time_step, .time_step = 0.95 * limit.time_step});
   CHECK(ring.group<Net>().get<field::Velocity>()[0].norm() < 1e-12);
   auto careless = zigzag({dashpot, 0.5});
@@ -544,7 +547,7 @@ double error_at_5(auto scene, double time_step) {
 
 TEST_CASE("sub-stepped bonds: the step of the scene follows the soft bonds, the number of sub-steps the stiff ones") {
   auto soft = substepped(0);
-  CHECK(soft.step_limit().bound_by == "bond stiffness");
+  CHECK(soft.step_limit().bound_by == "bond stiffness of soft");
   const auto report = soft.run({.until = 1.0, .time_step = 0.1});
   CHECK(report.limit.stable_time_step == doctest::Approx(1.0).epsilon(1e-12));  // 2/sqrt(4 k/m) of the soft bonds
   const double bound = 2.0 / std::sqrt(2.0 * stiff_stiffness);

@@ -120,7 +120,8 @@ void check_viscosity_laws(const V& law, double share_of_pairs = 1.0) {
   // Slow beside the sound: a term of the square of the velocities does not count.
   constexpr double support = Dim == 1 ? 200.0 : Dim == 2 ? 20.0 : 8.0, speed = 0.7, sound_speed = 1e4;  // spacing 1, density 1
   double nu = 0.3;
-  if constexpr (requires { law.kinematic_viscosity(sound_speed, support); }) nu = law.kinematic_viscosity(sound_speed, support);
+  if constexpr (requires { law.kinematic_viscosity(sound_speed, speed, support); })
+    nu = law.kinematic_viscosity(sound_speed, 0.0, support);
   const auto one_moves = [](const Vector& x) {
     Vector velocity{};
     if (dot(x, x) == 0.0) velocity[0] = speed;

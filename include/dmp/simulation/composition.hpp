@@ -105,6 +105,16 @@ template <class First, class... Rest>
 inline constexpr bool set_before_read<std::tuple<First, Rest...>> =
     ((intersect<typename First::reads, typename Rest::writes>::count == 0) && ...) && set_before_read<std::tuple<Rest...>>;
 
+/// Whether a law says how much energy a kelvin takes, by which conduction bounds the time step.
+template <class Law>
+inline constexpr bool has_specific_heat = requires(const Law law) { law.specific_heat(); };
+template <class... L>
+inline constexpr bool has_specific_heat<sweep::ChosenOf<L...>> = (has_specific_heat<L> && ...);
+template <class Laws>
+inline constexpr bool any_specific_heat = false;
+template <class... Law>
+inline constexpr bool any_specific_heat<std::tuple<Law...>> = (has_specific_heat<Law> || ...);
+
 /// Whether of laws to choose from at run time each sets whatever is needed of what any of them sets.
 template <class Law, class Needed>
 inline constexpr bool sets_whole = true;
@@ -242,10 +252,12 @@ struct Compose {
   static_assert(!contains<field::ShearRate, subtract<needed, summed>>,
                 "dmp: a law reads the shear rate of a group, but nothing sets it; add summed<Group>(sph::ShearRate<...>{...})");
   static_assert(summed::count == 0 || Mobility::evolves, "dmp: summed<Group>: nothing changes in a frozen group; make it stationary");
-
   static_assert(summed::count == 0 || has_pairs, "dmp: summed<Group>: no interaction joins the group to any, so it has no neighbours");
   static_assert(intersect<summed, unite<constants, derived>>::count == 0,
                 "dmp: summed<Group> sets a property that a law in the materials of the group sets too; leave one of them out");
+
+  static_assert(!contains<field::ThermalConductivity, reads> || !Mobility::evolves || any_specific_heat<materials>,
+                "dmp: heat is conducted into a group, but no law in its materials states `specific_heat()`, which bounds the time step");
 
   using rates = std::conditional_t<Mobility::evolves, typename Rates<writes>::type, Fields<>>;
   using state = subtract<unite<needed, typename Integrated<rates>::type, summed>,

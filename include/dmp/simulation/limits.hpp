@@ -108,15 +108,15 @@ void limit_group(const Engine& engine, const G& g, BondKind kind, sweep::StepLim
               },
               active.item.laws);
     });
-    if (drag > 0.0) limit.require_below(Integrator::damping_limit / drag, "drag");
+    if (drag > 0.0) limit.require_below(Integrator::damping_limit / drag, "drag on " + g.name);
     for (std::size_t i = 0; i < stiffness.size(); ++i) {
       const double per_damping = (dashpot[i] + drag) / Integrator::damping_limit;
       if (stiffness[i] == 0.0) {
-        if (dashpot[i] > 0.0) limit.require_below(1.0 / per_damping, "bond dashpot");
+        if (dashpot[i] > 0.0) limit.require_below(1.0 / per_damping, "bond dashpot of " + g.name);
         continue;
       }
       const double oscillation = Integrator::oscillation_limit / std::sqrt(stiffness[i]), half = 0.5 * oscillation * per_damping;
-      limit.require_below(oscillation * (std::sqrt(half * half + 1.0) - half), half < 0.5 ? "bond stiffness" : "bond dashpot");
+      limit.require_below(oscillation * (std::sqrt(half * half + 1.0) - half), (half < 0.5 ? "bond stiffness of " : "bond dashpot of ") + g.name);
     }
   }
 }

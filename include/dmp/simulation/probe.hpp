@@ -1,10 +1,12 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <type_traits>
 #include <dmp/core/field.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/neighbours/bond_list.hpp>
 #include <dmp/particles/columns.hpp>
+#include <dmp/simulation/composition.hpp>
 
 namespace dmp::simulation {
 
@@ -29,6 +31,22 @@ template <class Tag, class Field, class Scene, class Kernel>
   }
   if (!(weights > 0.0)) return std::nullopt;
   return sum / weights;
+}
+
+/// Bonds whose two ends lie in one place: they have no direction, and exert no force until something else parts the two.
+template <class Scene>
+[[nodiscard]] std::size_t count_zero_length_bonds(const Scene& scene) {
+  std::size_t count = 0;
+  scene.engine().for_each_item([&](const auto& active) {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_bonds<I>) {
+      const auto& first = scene.template group<typename I::A>().positions();
+      const auto& second = scene.template group<typename I::B>().positions();
+      for (const auto& bond : active.item.bonds)
+        if (neighbours::minimum_image<Scene::dimension>(first[bond.i] - second[bond.j], scene.engine().box()).isZero(0.0)) ++count;
+    }
+  });
+  return count;
 }
 
 }  // namespace dmp::simulation

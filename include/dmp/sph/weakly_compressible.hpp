@@ -79,7 +79,8 @@ struct WeaklyCompressible {
     limit.require_below(0.25 * h / (state.sound_speed + state.speed), "sound");
     if (state.acceleration > 0.0) limit.resolve(0.25 * std::sqrt(h / state.acceleration), "acceleration");
     double nu = state.kinematic_viscosity;
-    if constexpr (requires { viscosity.kinematic_viscosity(h, h); }) nu = viscosity.kinematic_viscosity(state.sound_speed, h);
+    if constexpr (requires { viscosity.kinematic_viscosity(h, h, h); })
+      nu = viscosity.kinematic_viscosity(state.sound_speed, state.speed, h);
     const double rate = viscosity.damping_rate(nu, h, kernel::radial_factor_integral(kernel), K::dimension);
     if (rate > 0.0) limit.require_below(state.damping_limit / rate, "viscosity");
     if constexpr (requires { diffusion.damping_rate(h, h); })

@@ -30,7 +30,8 @@ concept ActsAlongVelocity = requires(const V law, const Pair<2, double> pair, co
 /// Contract of a viscosity law. It declares the fields it `reads` of both particles; offers one of the two functions above, or none
 /// (viscosity::None); and states the largest rate at which it damps a velocity, for the time step:
 ///   damping_rate(nu, support_radius, radial_factor_integral, dimension)  [1/s]
-///     nu                      largest kinematic viscosity in the group [m^2/s]; unused by laws with parameters of their own
+///     nu                      largest kinematic viscosity in the group [m^2/s]; unused by laws with parameters of their own. A law that
+///                             makes it of the motion offers kinematic_viscosity(largest sound speed, largest speed, support_radius)
 ///     support_radius          h [m]
 ///     radial_factor_integral  integral of |F| over space [m^-2], kernel/concept.hpp
 template <class V>

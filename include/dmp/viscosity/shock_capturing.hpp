@@ -23,11 +23,12 @@ struct ShockCapturing {
     const auto convergence = h * min(pair.approach, 0.0) / (pair.distance_squared + 0.01 * h * h);  // s*, <= 0 [m/s]
     return convergence * (2.0 * beta * convergence - alpha * (i.sound_speed + j.sound_speed)) / (i.density + j.density);
   }
-  /// nu = alpha h c/(2 (d + 2)) of the linear term if it acted on all pairs, without the d + 2, which damping_rate restores  [m^2/s].
-  [[nodiscard]] double kinematic_viscosity(double sound_speed, double support_radius) const noexcept {
-    return 0.5 * alpha * support_radius * sound_speed;
+  /// What damping_rate takes for nu [m^2/s]: (h/2)(alpha c + beta |s*|), with |s*| = 4 u for two particles that meet at speed u each, half
+  /// a support apart.
+  [[nodiscard]] double kinematic_viscosity(double sound_speed, double speed, double support_radius) const noexcept {
+    return 0.5 * support_radius * (alpha * sound_speed + 4.0 * beta * speed);
   }
-  /// lambda = alpha h c (integral of |F|)/d [1/s], reached when every pair approaches.
+  /// lambda = 2 nu (integral of |F|)/d [1/s], reached when every pair approaches.
   [[nodiscard]] double damping_rate(double nu, double, double radial_factor_integral, int dimension) const noexcept {
     return 2.0 * nu * radial_factor_integral / dimension;
   }
