@@ -43,9 +43,8 @@ concept SpringLattice = requires(const L lattice) {
 };
 
 /// Simple cubic lattice with springs of one stiffness k to the 6 nearest and the 12 face-diagonal neighbours: lambda = mu = k/l,
-/// E = 2.5 k/l, nu = 1/4. A generic direction comes from a quaternion: .orientation = Eigen::Quaterniond(w, x, y,
-/// z).normalized().toRotationMatrix(). M. Sahputra, A. Alexiadis, M. J. Adams, ChemEngineering 4 (2020) 30,
-/// doi:10.3390/chemengineering4020030.
+/// E = 2.5 k/l, nu = 1/4. A generic direction: .orientation = Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix().
+/// M. Sahputra, A. Alexiadis, M. J. Adams, ChemEngineering 4 (2020) 30, doi:10.3390/chemengineering4020030.
 struct CubicLattice {
   static constexpr int dimension = 3;
   Required<double> spacing;                       ///< l [m], > 0

@@ -69,8 +69,8 @@ template <int Dim, class S>
   detail::require_finite<Dim>("lattice_spring::random_points: lower bound of the cuboid", within.lower, "m");
   detail::require_finite<Dim>("lattice_spring::random_points: upper bound of the cuboid", within.upper, "m");
   require_not_negative("lattice_spring::random_points: volume", volume, "m^Dim");
-  constexpr double most_cells = 1073741824.0;      // 2^30
-  constexpr std::size_t most_outside = 100000000;  // trials, one after the other, that miss the shape
+  constexpr double most_cells = 1073741824.0;     // 2^30
+  constexpr std::size_t most_outside = 10000000;  // trials, one after the other, that miss the shape
   constexpr std::uint32_t empty = std::numeric_limits<std::uint32_t>::max();
 
   // Cells whose diagonal is the least distance: none holds two points, and a point that is too near lies at most two cells away.
@@ -116,7 +116,7 @@ template <int Dim, class S>
     for (int d = 0; d < Dim; ++d) x[d] = within.lower[d] + uniform() * (within.upper[d] - within.lower[d]);
     if (!within.contains(x) || !shape.contains(x)) {
       if (++outside == most_outside)
-        throw ParameterError("lattice_spring::random_points: the shape must fill some of the bounding cuboid, got none in 1e8 trials");
+        throw ParameterError("lattice_spring::random_points: the shape must fill some of the bounding cuboid, got none in 1e7 trials");
       continue;
     }
     outside = 0;
