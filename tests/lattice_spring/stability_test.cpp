@@ -95,6 +95,11 @@ TEST_CASE("section 6: two beads, b = 0.2 N s/m on 1e-5 kg each, allow 5e-5 s; sp
   const auto more = local_stiffness(pair, 4.0);
   for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += more[i];
   CHECK(highest_rate<3>(sum, 0.5) == doctest::Approx(28.0).epsilon(1e-14));
+  // A bond under tension T also holds across, by T/L; one under pressure is taken as at rest.
+  const std::vector<double> pull{5.0}, push{-5.0};
+  const Tensor<3> pulled = local_stiffness<3>(pair.points.positions, pair.bonds, 3.0, pull)[0];
+  CHECK((pulled - Tensor<3>(Vector<3>(3.0, 5.0, 5.0).asDiagonal())).norm() < 1e-14);
+  CHECK((local_stiffness<3>(pair.points.positions, pair.bonds, 3.0, push)[0] - local_stiffness(pair, 3.0)[0]).norm() == 0.0);
 }
 
 TEST_CASE("the bound by directions allows sqrt(3) times the step that a scene takes, which adds up the weights, on the cubic lattice") {

@@ -171,7 +171,8 @@ TEST_CASE("the virial stress of a scene's beads after some steps is that of its 
 
 TEST_CASE("Hardy: the overlap of two balls is the integral of their common discs, and has its limits") {
   const double pi = std::numbers::pi;
-  for (const auto& [R, r, d] : {std::array{1.0, 0.5, 0.8}, {0.5, 1.0, 0.8}, {1.0, 1.0, 1.5}, {1.0, 0.34, 1.3}, {1.02, 0.3, 0.75}, {1.0, 1.0, 0.2}}) {
+  for (const auto& balls : {std::array{1.0, 0.5, 0.8}, {0.5, 1.0, 0.8}, {1.0, 1.0, 1.5}, {1.0, 0.34, 1.3}, {1.02, 0.3, 0.75}, {1.0, 1.0, 0.2}}) {
+    const double R = balls[0], r = balls[1], d = balls[2];
     const double joint = (d * d + R * R - r * r) / (2.0 * d);  // the plane of the common circle, from the centre of the first
     const double expected = test::integral([&](double x) { return pi * (r * r - (x - d) * (x - d)); }, d - r, joint) +
                             test::integral([&](double x) { return pi * (R * R - x * x); }, joint, R);

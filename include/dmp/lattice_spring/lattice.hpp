@@ -28,6 +28,7 @@ struct LatticeBond {
 /// Contract of a lattice of springs.
 ///   dimension        static constexpr int
 ///   node             [m], position of one node
+///   spacing          [m], to the nearest neighbour
 ///   basis()          [m], columns: the steps along i, j, k, turned
 ///   bonds()          static; std::array of LatticeBond, to nodes later in the order k, j, i
 ///   cells()          static; std::array of cells, each the Steps to its corners (0, ..., 0) among them; equal volumes, together one node's
@@ -36,6 +37,7 @@ template <class L>
 concept SpringLattice = requires(const L lattice) {
   { L::dimension } -> std::convertible_to<int>;
   { lattice.node } -> std::convertible_to<Vector<L::dimension>>;
+  { lattice.spacing } -> std::convertible_to<double>;
   { lattice.basis() } -> std::convertible_to<Tensor<L::dimension>>;
   { L::bonds()[0] } -> std::convertible_to<LatticeBond<L::dimension>>;
   { L::cells()[0][0] } -> std::convertible_to<Steps<L::dimension>>;

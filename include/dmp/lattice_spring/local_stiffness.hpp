@@ -16,20 +16,24 @@
 namespace dmp::lattice_spring {
 
 /// H_i = sum of k w n n^T [N/m] over the bonds of bead i, w their weights, n their directions: what holds the bead if all others stand
-/// still. Of several lists with a law each: the sum of theirs. The same with damping coefficients for dashpots [N s/m].
+/// still. A bond under tension T > 0 adds (T/L)(1 - n n^T): pass `tensions` (weights included) of a stretched body. Of several lists
+/// with a law each: the sum of theirs. The same with damping coefficients for dashpots [N s/m].
 template <int Dim>
 [[nodiscard]] std::vector<Tensor<Dim>> local_stiffness(std::span<const Vector<Dim>> positions, std::span<const neighbours::Bond> bonds,
-                                                       double stiffness) {
+                                                       double stiffness, std::span<const double> tensions = {}) {
   require_not_negative("lattice_spring::local_stiffness: stiffness", stiffness, "N/m");
   detail::require_ends("lattice_spring::local_stiffness", bonds, positions.size());
+  if (!tensions.empty()) detail::require_same_size("lattice_spring::local_stiffness", "tensions", tensions.size(), bonds.size());
   std::vector<Tensor<Dim>> sum(positions.size(), Tensor<Dim>::Zero());
-  for (const neighbours::Bond& bond : bonds) {
-    const Vector<Dim> apart = positions[bond.j] - positions[bond.i];
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const Vector<Dim> apart = positions[bonds[b].j] - positions[bonds[b].i];
     const double squared = apart.squaredNorm();
     if (!(squared > 0.0)) continue;  // no direction
-    const Tensor<Dim> part = (stiffness * bond.weight / squared) * apart * apart.transpose();
-    sum[bond.i] += part;
-    sum[bond.j] += part;
+    const double across = tensions.empty() ? 0.0 : std::max(tensions[b], 0.0) / std::sqrt(squared);
+    const Tensor<Dim> part =
+        across * Tensor<Dim>::Identity() + ((stiffness * bonds[b].weight - across) / squared) * apart * apart.transpose();
+    sum[bonds[b].i] += part;
+    sum[bonds[b].j] += part;
   }
   return sum;
 }
@@ -60,7 +64,7 @@ template <int Dim>
 
 /// Bound of the highest rate in the motion of beads of one mass [kg]: 2 max lambda_max(H_i)/m. It is omega^2 [1/s^2] of springs, and c
 /// [1/s] of dashpots (H_i from damping coefficients). From (u_i - u_j)^2 <= 2 (u_i^2 + u_j^2) along each bond; reached by the cubic
-/// lattice, omega^2 = 12 k/m.
+/// lattice, omega^2 = 12 k/m. A spring to what cannot move, such as a plate, counts half in H_i.
 template <int Dim>
 [[nodiscard]] double highest_rate(std::span<const Tensor<Dim>> local_stiffness, double mass) {
   require_positive("lattice_spring::highest_rate: mass", mass, "kg");

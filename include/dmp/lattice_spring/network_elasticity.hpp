@@ -24,7 +24,7 @@ template <int Dim, class Counts>
 }  // namespace detail
 
 /// Bulk modulus K = (1/(N^2 V)) sum of k w L^2 [Pa] that a network has while all beads follow a uniform strain: an upper bound of what it
-/// has when they relax, exact for complete lattices. Each bond once; V the volume of the whole body.
+/// has when they relax, exact for complete lattices; E = 3/2 K in 3D, 4/3 K in 2D. Each bond once; V the volume of the whole body.
 /// M. Kot, ChemEngineering 5 (2021) 3, doi:10.3390/chemengineering5010003, eq. 14. With dispersion it
 /// is (1 + 2/N) C, eq. 15, and springs act directly with k (1 - |D|).
 template <int Dim>
