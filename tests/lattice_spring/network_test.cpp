@@ -103,6 +103,13 @@ TEST_CASE("network: bonds are all pairs closer than reach, by looking at every p
   }
 }
 
+TEST_CASE("network: a pair exactly reach apart is not bonded, though the search is in single precision") {
+  const Points<3> points{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1.0 + 1e-9, 0}, {0, 0, 1.0 - 1e-9}}};
+  const auto body = network(points, 1.0);
+  REQUIRE(body.bonds.size() == 1);
+  CHECK((body.bonds[0].i == 0 && body.bonds[0].j == 3));
+}
+
 TEST_CASE("B4, B5: 7,100 random points in a cube have the springs, lengths, coordination and imbalance of sheet 04") {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const auto points = random_points<3>({.least_distance = least, .most_points = 7100, .seed = seed}, cube(10.0));
