@@ -24,7 +24,7 @@ namespace dmp::simulation {
 /// How far to run, and with which step.
 struct RunOptions {
   Required<double> until;           ///< end of the run [s]
-  double time_step = 0.0;           ///< [s]; 0: from the laws' bounds, reconsidered every 10 steps
+  double time_step = 0.0;           ///< [s]; 0: from the laws' bounds, reconsidered every 10 steps, with summed laws every step
   double safety = 0.9;              ///< fraction of the smallest bound that is taken when time_step is 0; 0 < safety <= 1
   std::uint64_t check_every = 100;  ///< steps between two checks of all values (finite, in the box)
 };
@@ -125,7 +125,7 @@ class Scene {
       bool begun = false, worn = false;
       while (begun || goes_further()) {
         if (!begun) {
-          if (options.time_step == 0.0 && clock_.step % 10 == 0) {
+          if (options.time_step == 0.0 && clock_.step % steps_between_choices == 0) {
             const auto limit = find_step_limit<Integrator>(engine_, has_substeps);
             if (limit.time_step < report.limit.time_step) report.limit = limit;
             choose_step(options.safety * limit.time_step);
@@ -149,7 +149,7 @@ class Scene {
                                 {clock_.time, clock_.step, "", -1, "", 0.0});
         ++report.steps;
         // Where nobody looks at the state between two steps, the end of one and the beginning of the next are one pass.
-        const bool checks = clock_.step % options.check_every == 0, chooses = options.time_step == 0.0 && clock_.step % 10 == 0;
+        const bool checks = clock_.step % options.check_every == 0, chooses = options.time_step == 0.0 && clock_.step % steps_between_choices == 0;
         begun = !checks && !chooses && !observes() && goes_further();
         if (begun) {
           clock_.tick();
@@ -214,6 +214,8 @@ class Scene {
   }
 
  private:
+  /// A property that is found anew from the neighbours may jump, and with it a bound of the step.
+  static constexpr std::uint64_t steps_between_choices = (is_summed<Item> || ...) ? 1 : 10;
   static constexpr bool has_substeps = Engine<Dim, Integrator, Precision, Item...>::has_substeps;
   struct Observer {
     double interval;
