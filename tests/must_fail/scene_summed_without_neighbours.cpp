@@ -1,4 +1,4 @@
-// expect: dmp: summed<Group>: no interaction joins the group to any, so it has no neighbours
+// expect: dmp: summed<Group>: no interaction of a law that knows the density joins the group to any
 #include <dmp/dmp.hpp>
 
 namespace {

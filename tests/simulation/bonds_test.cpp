@@ -166,6 +166,14 @@ TEST_CASE("KV-5: k = 2K: stock LAMMPS with K = k/2 and a dashpot on the half-ste
   auto pair = bead_pair<Leapfrog, Frozen<1>>(bond_of(2.0), {});
   pair.run({.until = 1.0, .time_step = 1e-3});
   CHECK(std::fabs(extension(pair) - 0.26436379) <= 5.1e-9);  // sheet 06, section 8
+
+  const auto swing = [](const bond::Harmonic& law) {
+    auto spring = scene<Leapfrog>(Box<1>::unbounded(), group<Right>("right", Mobile{}, Points<1>{{Vector<1>(0.0), Vector<1>(1.7)}}, 1.0), bonds<Right, Right>(law, {{0, 1, 1.0}}));
+    spring.run({.until = 3.0, .time_step = 0.01});
+    return spring.template group<Right>().positions()[0][0];
+  };
+  CHECK(swing(bond::Harmonic::from_lammps(0.15)) == swing({.stiffness = 0.3}));
+  CHECK(swing(bond::Harmonic::from_lammps(0.3)) != swing({.stiffness = 0.3}));
 }
 
 TEST_CASE("a held bead: the bound of the step is that of the free bead's mass alone") {  // taken as if both moved

@@ -93,7 +93,7 @@ template <class Integrator, class V>
 auto tube(const V& viscosity) {  // NASG-1, with an ideal gas: a fluid whose pressure depends on the energy, between frozen ends
   const sph::Compressible<Lucy, V> law{.kernel = lucy, .viscosity = viscosity};
   return scene<Integrator>(box, group<Water>("gas", Mobile{}, row(10, 0.5), 1.0), group<Wall>("ends", Frozen<2>{}, row(10, 0.4), 1.0), interaction<Water, Water>(law),
-                           interaction<Water, Wall>(law), material<Water, Wall>(eos::IdealGas{}));
+                           interaction<Water, Wall>(law), material<Water, Wall>(eos::liquid_water));
 }
 template <class Integrator>
 auto slabs() {  // HX: two phases at rest

@@ -10,6 +10,8 @@ namespace dmp::bond {
 struct Harmonic {
   Required<double> stiffness;  ///< k [N/m], >= 0
 
+  /// The bond that LAMMPS calls bond_coeff K r0, K in U = K (r - r0)^2.
+  [[nodiscard]] static Harmonic from_lammps(double K) { return {.stiffness = 2.0 * K}; }
   [[nodiscard]] auto tension(const auto& bond) const noexcept { return stiffness * (bond.length - bond.rest_length); }
   [[nodiscard]] auto energy(const auto& bond) const noexcept { return 0.5 * stiffness * square(bond.length - bond.rest_length); }
   [[nodiscard]] double largest_stiffness() const noexcept { return stiffness; }

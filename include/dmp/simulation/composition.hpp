@@ -126,8 +126,15 @@ inline constexpr bool all_set_whole = true;
 template <class... Law, class Needed>
 inline constexpr bool all_set_whole<std::tuple<Law...>, Needed> = (sets_whole<Law, Needed> && ...);
 
+/// Interactions whose partners summed laws sum over: those of particles that have a density. A repulsion beside them brings none.
+template <class Item>
+inline constexpr bool is_summed_over = false;
+template <class A, class B, class... Law>
+inline constexpr bool is_summed_over<Interaction<A, B, Law...>> =
+    contains<field::Density, typename Interaction<A, B, Law...>::reads> || contains<field::DensityRate, typename Interaction<A, B, Law...>::writes>;
+
 template <class G, class H, class... Item>
-inline constexpr bool is_partner = (joins_both<G, H, Item> || ...);
+inline constexpr bool is_partner = ((joins_both<G, H, Item> && is_summed_over<Item>) || ...);
 
 /// What a summed law asks of group G, and what it sets there. Its partners are all groups that an interaction joins to its own.
 template <class G, class Summed_, class... Item>
@@ -252,7 +259,8 @@ struct Compose {
   static_assert(!contains<field::ShearRate, subtract<needed, summed>>,
                 "dmp: a law reads the shear rate of a group, but nothing sets it; add summed<Group>(sph::ShearRate<...>{...})");
   static_assert(summed::count == 0 || Mobility::evolves, "dmp: summed<Group>: nothing changes in a frozen group; make it stationary");
-  static_assert(summed::count == 0 || has_pairs, "dmp: summed<Group>: no interaction joins the group to any, so it has no neighbours");
+  static_assert(summed::count == 0 || ((joins<Tag, Item> && is_summed_over<Item>) || ...),
+                "dmp: summed<Group>: no interaction of a law that knows the density joins the group to any, so it has no neighbours to sum over");
   static_assert(intersect<summed, unite<constants, derived>>::count == 0,
                 "dmp: summed<Group> sets a property that a law in the materials of the group sets too; leave one of them out");
 

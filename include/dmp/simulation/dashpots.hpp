@@ -63,7 +63,7 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
     });
     walls_move_ = false;  // what they do is in the residual
     double size = size_of_residual();
-    const double enough = square(tolerance()) * size;
+    const double enough = std::max(square(tolerance()) * size, std::numeric_limits<double>::min());
     int iterations = 0;
     for (; size > enough && iterations < most_iterations; ++iterations) {
       show([](const auto&, const Work& work, std::size_t i) -> const Vector<Dim>& { return work.direction[i]; });

@@ -78,7 +78,7 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     return particle;
   }
   template <class G>
-  [[nodiscard]] auto prepared(const G& g, std::size_t i, double dt) const noexcept {
+  [[nodiscard]] auto prepared(const G& g, std::size_t i, double dt = 0.0) const noexcept {
     View<Dim, double, typename LayoutOf<G>::prepared> particle;
     with_materials(g, [&](const auto&... law) { particle = prepared_by(g, i, dt, law...); });
     return particle;
@@ -109,10 +109,12 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   template <class Tag, class Law>
   [[nodiscard]] auto find_sums(const Law& law) {
     static_assert(sweep::explain_summed_law<Law>());
+    auto& g = this->template group<Tag>();
+    static_assert(evolves<decltype(g)> && LayoutOf<decltype(g)>::has_pairs,
+                  "dmp: find_sums: a frozen group, or one without interactions, has no lists of neighbours");
     check_parameters(law);
     this->template check_reach<Tag>(law);
     pack_all(0.0);  // the state between two steps; also after lists were built
-    auto& g = this->template group<Tag>();
     std::vector<View<Dim, double, typename Law::sets>> result(g.size());
     particles::Sums<Dim, typename Law::sums> sums;
     clear_sums(g, sums);
@@ -261,6 +263,7 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
       double value = g.template get<F>()[i];
       for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
         if constexpr (std::is_same_v<typename Rate::integrates, F>) {
+          if (!(dt > 0.0)) return;  // between steps a state is what it is, whatever its rate
           const double rate = g.template get<Rate>()[i];
           if constexpr (Integrator::keeps_rates) value = Integrator::seen_state(value, rate, g.template get<Previous<Rate>>()[i], dt);
           else value = Integrator::seen_state(value, rate, rate, dt);
@@ -337,7 +340,7 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
         sweep::set_zero(sums);
         for_each_item([&](const auto& active) {
           using I = std::remove_cvref_t<decltype(active.item)>;
-          if constexpr (is_interaction<I>) {
+          if constexpr (detail::is_summed_over<I>) {
             if constexpr (std::is_same_v<typename G::Tag, typename I::A>)
               pairs<typename I::B, std::is_same_v<typename I::A, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add, law);
             else if constexpr (std::is_same_v<typename G::Tag, typename I::B>)

@@ -141,9 +141,9 @@ struct Summed<std::tuple<Tag...>, Law> {
   Law law;
   std::uint64_t every;
 };
-/// summed<Water>(sph::ShearRate<K>{...}): a summed law over all partners that interactions join to the group; frozen partners are seen,
-/// and not changed. Steps divisible by `every` do it; its support must not exceed the cut-off of those interactions. Pairs that an
-/// interaction leaves out (excluding_bonded) are left out here too.
+/// summed<Water>(sph::ShearRate<K>{...}): a summed law over all partners that interactions of laws with a density join to the group; frozen
+/// partners are seen, and not changed. Steps divisible by `every` do it, the start among them; its support must not exceed the cut-off of
+/// those interactions. Pairs that an interaction leaves out (excluding_bonded) are left out here too.
 template <class... Tag, class Law>
 [[nodiscard]] auto summed(const Law& law, std::uint64_t every = 1) {
   static_assert(sizeof...(Tag) > 0, "dmp: summed<Groups...>(law) names no group");

@@ -165,7 +165,7 @@ class Model {
   void check_reach(const Law& summed) const {  // every list that a summed law sweeps must reach far enough
     for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_interaction<I>)
+      if constexpr (detail::is_summed_over<I>)
         if constexpr (std::is_same_v<Tag, typename I::A> || std::is_same_v<Tag, typename I::B>)
           require(summed.cutoff() <= active.item.cutoff(),
                   ("summed: support radius must be <= the cut-off of the interaction of " + group<typename I::A>().name + " and " +

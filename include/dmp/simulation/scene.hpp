@@ -24,7 +24,7 @@ namespace dmp::simulation {
 /// How far to run, and with which step.
 struct RunOptions {
   Required<double> until;           ///< end of the run [s]
-  double time_step = 0.0;           ///< [s]; 0: from the laws' bounds, reconsidered every 10 steps, with summed laws every step
+  double time_step = 0.0;           ///< [s]; 0: from the laws' bounds, reconsidered every 10 steps, with a viscosity of the shear rate every step
   double safety = 0.9;              ///< fraction of the smallest bound that is taken when time_step is 0; 0 < safety <= 1
   std::uint64_t check_every = 100;  ///< steps between two checks of all values (finite, in the box)
 };
@@ -118,6 +118,7 @@ class Scene {
       clock_.automatic = options.time_step == 0.0 ? 1 : 0;
       engine_.refresh_frozen();
       check();
+      check_materials(0.0);
       take_snapshot();
       Progress bar(shows_progress_, clock_.time, options.until);
       observe();
@@ -149,7 +150,7 @@ class Scene {
                                 {clock_.time, clock_.step, "", -1, "", 0.0});
         ++report.steps;
         // Where nobody looks at the state between two steps, the end of one and the beginning of the next are one pass.
-        const bool checks = clock_.step % options.check_every == 0, chooses = options.time_step == 0.0 && clock_.step % steps_between_choices == 0;
+        const bool checks = clock_.step % options.check_every == 0, chooses = (options.time_step == 0.0 || bounds_jump) && clock_.step % steps_between_choices == 0;
         begun = !checks && !chooses && !observes() && goes_further();
         if (begun) {
           clock_.tick();
@@ -159,13 +160,15 @@ class Scene {
         engine_.end_step(clock_.time_step);
         if (checks) {
           check();
+          check_materials(0.0);
           take_snapshot();
-          if (options.time_step > 0.0) check_step(report.limit);
         }
+        if (options.time_step > 0.0 && (checks || chooses)) check_step(report.limit);
         observe();
         bar.show(clock_.time);
       }
       check();
+      check_materials(0.0);
       report.time_step = clock_.time_step;
       report.step_bound_by = options.time_step == 0.0
                                  ? report.limit.bound_by
@@ -214,8 +217,14 @@ class Scene {
   }
 
  private:
-  /// A property that is found anew from the neighbours may jump, and with it a bound of the step.
-  static constexpr std::uint64_t steps_between_choices = (is_summed<Item> || ...) ? 1 : 10;
+  /// A viscosity of the shear rate may rise severalfold within a few steps, and the bound of the step falls with it.
+  static constexpr bool bounds_jump = [] {
+    return ([] {
+      if constexpr (is_summed<Item>) return contains<field::ShearRate, typename decltype(Item::law)::sets>;
+      return false;
+    }() || ...);
+  }();
+  static constexpr std::uint64_t steps_between_choices = bounds_jump ? 1 : 10;
   static constexpr bool has_substeps = Engine<Dim, Integrator, Precision, Item...>::has_substeps;
   struct Observer {
     double interval;
@@ -315,7 +324,6 @@ class Scene {
     const Fault found = fault();
     if (!found.what.empty())
       throw SimulationError("a value " + found.what, {clock_.time, clock_.step, found.group, found.particle, found.field, found.value});
-    check_materials(0.0);
     engine_.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>) {
