@@ -8,6 +8,7 @@
 #include <dmp/integrator.hpp>
 #include <dmp/io.hpp>
 #include <dmp/kernel.hpp>
+#include <dmp/lattice_spring.hpp>
 #include <dmp/neighbours.hpp>
 #include <dmp/particles.hpp>
 #include <dmp/potential.hpp>
