@@ -29,60 +29,82 @@ struct RelaxReport {
 
 namespace detail {
 
-/// Takes the rigid rotation about the centre of mass out of velocities and accelerations of all mobile groups together.
-template <int Dim, class Engine>
-void remove_rotation(Engine& engine) {
-  static_assert(Dim > 1, "dmp: relax: nothing rotates on a line");
-  constexpr int turns = Dim == 2 ? 1 : 3;  // about the normal of the plane, or about x, y, z
+/// The rigid rotation about the centre of mass, of all mobile groups together.
+template <int Dim>
+struct Rotation {
+  static constexpr int turns = Dim == 1 ? 0 : Dim == 2 ? 1 : 3;  // about the normal of the plane, or about x, y, z
   using Turn = Eigen::Matrix<double, turns, 1>;
-  using Arms = Eigen::Matrix<double, Dim, turns>;  // times a turn: velocity at x
-  const auto arms = [](const Vector<Dim>& x) -> Arms {
-    if constexpr (Dim == 2) return Arms(-x[1], x[0]);
-    else return (Arms() << 0.0, x[2], -x[1], -x[2], 0.0, x[0], x[1], -x[0], 0.0).finished();
-  };
-  const auto for_each_mobile = [&engine](const auto& function) {
-    engine.for_each_group([&](auto& g) {
-      if constexpr (particles::is_mobile<typename std::remove_cvref_t<decltype(g)>::Mobility>) function(g);
-    });
-  };
-  double mass = 0.0;
-  Vector<Dim> centre = Vector<Dim>::Zero();
-  for_each_mobile([&](auto& g) {
-    mass += g.mass * static_cast<double>(g.size());
-    centre += g.mass * sum_over_rows(g.blocks, Vector<Dim>(Vector<Dim>::Zero()), [&](std::size_t i) { return g.positions()[i]; });
-  });
-  centre /= mass;
-  Eigen::Matrix<double, turns, turns + 2> sums = Eigen::Matrix<double, turns, turns + 2>::Zero();  // inertia, angular momentum, torque
-  for_each_mobile([&](auto& g) {
-    const Eigen::Matrix<double, turns, turns + 2> none = Eigen::Matrix<double, turns, turns + 2>::Zero();
-    sums += g.mass * sum_over_rows(g.blocks, none, [&](std::size_t i) {
-      const Arms arm = arms(g.positions()[i] - centre);
-      Eigen::Matrix<double, turns, turns + 2> one;
-      one.template leftCols<turns>() = arm.transpose() * arm;
-      one.col(turns) = arm.transpose() * g.template get<field::Velocity>()[i];
-      one.col(turns + 1) = arm.transpose() * g.template get<field::Acceleration>()[i];
-      return one;
-    });
-  });
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, turns, turns>> inertia(sums.template leftCols<turns>());
-  const auto solve = [&](const Turn& right) {  // without the turns that move nothing: of a row of beads about itself
-    Turn result = Turn::Zero();
-    for (int k = 0; k < turns; ++k)
-      if (inertia.eigenvalues()[k] > 1e-12 * inertia.eigenvalues()[turns - 1])
-        result += inertia.eigenvectors().col(k).dot(right) / inertia.eigenvalues()[k] * inertia.eigenvectors().col(k);
+  using Arms = Eigen::Matrix<double, Dim, turns>;
+  Vector<Dim> centre = Vector<Dim>::Zero();  // [m]
+  Turn speed = Turn::Zero();                 // angular velocity [1/s]
+  Turn rate = Turn::Zero();                  // angular acceleration [1/s^2]
+
+  /// arms(x) times a turn: the velocity at x.
+  [[nodiscard]] static Arms arms(const Vector<Dim>& x) noexcept {
+    Arms result;
+    if constexpr (Dim == 2) {
+      result[0] = -x[1], result[1] = x[0];
+    } else if constexpr (Dim == 3) {
+      result.setZero();
+      result(0, 1) = x[2], result(0, 2) = -x[1];
+      result(1, 0) = -x[2], result(1, 2) = x[0];
+      result(2, 0) = x[1], result(2, 1) = -x[0];
+    }
     return result;
-  };
-  const Turn turn = solve(sums.col(turns)), turning = solve(sums.col(turns + 1));
-  for_each_mobile([&](auto& g) {
-    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const Arms arm = arms(g.positions()[i] - centre);
-        g.template get<field::Velocity>()[i] -= arm * turn;
-        g.template get<field::Acceleration>()[i] -= arm * turning;
+  }
+  void find(auto& engine) {
+    struct Moments {  // about the last centre
+      Vector<Dim> position = Vector<Dim>::Zero(), velocity = Vector<Dim>::Zero(), acceleration = Vector<Dim>::Zero();
+      Eigen::Matrix<double, turns, turns> inertia = Eigen::Matrix<double, turns, turns>::Zero();
+      Turn spin = Turn::Zero(), torque = Turn::Zero();
+      double mass = 0.0;
+      void operator+=(const Moments& other) { add(1.0, other); }
+      void add(double factor, const Moments& other) {
+        position += factor * other.position;
+        velocity += factor * other.velocity;
+        acceleration += factor * other.acceleration;
+        inertia += factor * other.inertia;
+        spin += factor * other.spin;
+        torque += factor * other.torque;
+        mass += factor * other.mass;
       }
+    };
+    Moments all;
+    engine.for_each_group([&](auto& g) {
+      if constexpr (particles::is_mobile<typename std::remove_cvref_t<decltype(g)>::Mobility>)
+        all.add(g.mass, sum_over_rows(g.blocks, Moments{}, [&](std::size_t i) {
+                  Moments one;
+                  one.position = g.positions()[i] - centre;
+                  one.velocity = g.template get<field::Velocity>()[i];
+                  one.acceleration = g.template get<field::Acceleration>()[i];
+                  const Arms arm = arms(one.position);
+                  one.inertia = arm.transpose() * arm;
+                  one.spin = arm.transpose() * one.velocity;
+                  one.torque = arm.transpose() * one.acceleration;
+                  one.mass = 1.0;
+                  return one;
+                }));
     });
-  });
-}
+    const Vector<Dim> shift = all.position / all.mass;
+    const Arms arm = arms(shift);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, turns, turns>> inertia(all.inertia - all.mass * (arm.transpose() * arm));
+    const auto solve = [&inertia](const Turn& right) {  // without the turns that move nothing: of a row of beads about itself
+      Turn result = Turn::Zero();
+      for (int k = 0; k < turns; ++k)
+        if (inertia.eigenvalues()[k] > 1e-12 * inertia.eigenvalues()[turns - 1])
+          result += inertia.eigenvectors().col(k).dot(right) / inertia.eigenvalues()[k] * inertia.eigenvectors().col(k);
+      return result;
+    };
+    centre += shift;
+    speed = solve(all.spin - arm.transpose() * all.velocity);
+    rate = solve(all.torque - arm.transpose() * all.acceleration);
+  }
+  void remove(const Vector<Dim>& x, Vector<Dim>& velocity, Vector<Dim>& acceleration) const noexcept {
+    const Arms arm = arms(x - centre);
+    velocity -= arm * speed;
+    acceleration -= arm * rate;
+  }
+};
 
 }  // namespace detail
 
@@ -137,13 +159,16 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
       finite = finite && other.finite;
     }
   };
+  [[maybe_unused]] detail::Rotation<Dim> rotation;
   const auto look = [&] {
     if constexpr (Dim > 1)
-      if (options.without_rotation) detail::remove_rotation<Dim>(engine);
+      if (options.without_rotation) rotation.find(engine);
     Sums sums;
     for_each_mobile([&](auto& g, auto& velocity, auto& acceleration) {
       const double mass = g.mass;
       sums += sum_over_rows(g.blocks, Sums{}, [&](std::size_t i) {
+        if constexpr (Dim > 1)
+          if (options.without_rotation) rotation.remove(g.positions()[i], velocity[i], acceleration[i]);
         const double squared = acceleration[i].squaredNorm();
         return Sums{mass * acceleration[i].dot(velocity[i]), mass * velocity[i].squaredNorm(), mass * squared, mass * mass * squared,
                     squared < std::numeric_limits<double>::infinity()};
