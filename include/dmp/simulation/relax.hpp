@@ -116,8 +116,7 @@ struct Rotation {
 /// E. Bitzek, P. Koskinen, F. Gaehler, M. Moseler, P. Gumbsch, Phys. Rev. Lett. 97 (2006) 170201, doi:10.1103/PhysRevLett.97.170201.
 template <int Dim, class Integrator, class Precision, class... Item>
 RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const RelaxOptions& options) {
-  using Engine = Engine<Dim, Integrator, Precision, Item...>;
-  static_assert(!Engine::has_substeps, "dmp: relax: sub-stepped bonds have no use where nothing moves in time; make them bonds<...>");
+  static_assert(!Engine<Dim, Integrator, Precision, Item...>::has_substeps, "dmp: relax: sub-stepped bonds have no use where nothing moves in time; make them bonds<...>");
   static_assert(!([] {
     if constexpr (is_bonds<Item>) return bond::HasMemory<decltype(Item::law)>;
     return false;
