@@ -3,9 +3,11 @@
 #include <dmp/lattice_spring/body.hpp>                // Body: points and bonds, ready for a scene.
 #include <dmp/lattice_spring/connectivity.hpp>        // Bonds per bead, mean coordination.
 #include <dmp/lattice_spring/elastic_constants.hpp>   // E, nu, Lame's, K, and the springs' Q, C, D: all from any two.
+#include <dmp/lattice_spring/folds.hpp>               // Beads around which a body has turned inside out.
 #include <dmp/lattice_spring/hardy_stress.hpp>        // Stress averaged over a ball anywhere in a body.
 #include <dmp/lattice_spring/hertz.hpp>               // Sphere between plates: force, contact, stress on the axis, relaxation.
 #include <dmp/lattice_spring/hertz_fit.hpp>           // Young's modulus of a sphere from its force curve, with a free zero.
+#include <dmp/lattice_spring/inertia_free.hpp>        // Steps of slow viscoelastic loading as states of rest of other springs.
 #include <dmp/lattice_spring/lattice.hpp>             // CubicLattice, TriangularLattice, SquareLattice, turned at will.
 #include <dmp/lattice_spring/lattice_body.hpp>        // Shapes and blocks of lattice, with full or shared bonds in the surface.
 #include <dmp/lattice_spring/lattice_elasticity.hpp>  // Bond stiffness of a lattice from Young's modulus, and back.

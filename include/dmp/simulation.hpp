@@ -9,10 +9,12 @@
 #include <dmp/simulation/items.hpp>        // group, interaction, bonds, material, forced_by: what a scene is made of.
 #include <dmp/simulation/limits.hpp>       // Bounds of the time step, from all laws of a scene.
 #include <dmp/simulation/lists.hpp>        // Who is near whom, and when lists are worn.
+#include <dmp/simulation/load.hpp>         // What a forcing does to a group as a whole: force on a plate, width of a contact.
 #include <dmp/simulation/model.hpp>        // Groups and items of a scene.
 #include <dmp/simulation/output.hpp>       // VtkOutput: all groups for ParaView.
 #include <dmp/simulation/probe.hpp>        // Looking in: a field at a point, bonds of length zero.
 #include <dmp/simulation/progress.hpp>     // Bar with the time left.
+#include <dmp/simulation/relax.hpp>        // To a minimum of the energy instead of through time (FIRE).
 #include <dmp/simulation/rules.hpp>        // What the items of a scene must agree on.
 #include <dmp/simulation/scene.hpp>        // scene, run, observers, checkpoint and restart.
 #include <dmp/simulation/state.hpp>        // The state as plain numbers: checks, snapshots, checkpoints.

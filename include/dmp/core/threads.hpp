@@ -175,4 +175,18 @@ void for_each_block(const Blocks& blocks, Function&& function) {
   });
 }
 
+/// zero + function(row) of all rows, added up by blocks, and the blocks in their order: the same bits for any number of threads.
+template <class T, class Function>
+[[nodiscard]] T sum_over_rows(const Blocks& blocks, const T& zero, Function&& function) {
+  std::vector<T> parts(blocks.size(), zero);
+  for_each_block(blocks, [&](std::size_t, std::size_t block) {
+    T part = zero;
+    for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) part += function(i);
+    parts[block] = part;
+  });
+  T sum = zero;
+  for (const T& part : parts) sum += part;
+  return sum;
+}
+
 }  // namespace dmp

@@ -16,6 +16,8 @@ struct Subject {
 /// Contract of a forcing: an acceleration of place, velocity and time.
 ///   acceleration(subject)  [m/s^2], Components<Dim, double>
 ///   damping_rate(mass)     [1/s], only if it damps velocities: bounds the time step
+///   stiffness(subject)     [N/m], only if its force changes over short distances: how much force it opposes to a displacement, per metre,
+///                          where the particle is now; bounds the time step
 template <class F, int Dim>
 concept Forcing = requires(const F law, const Subject<Dim> subject) {
   { law.acceleration(subject) } -> std::same_as<Components<Dim, double>>;

@@ -126,15 +126,8 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
   template <class Term>
   [[nodiscard]] double total(Term&& term) {
     double sum = 0.0;
-    for_each_solved([&](auto& g, Work& work) {
-      std::vector<double> part(g.blocks.size(), 0.0);
-      for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-        double of_block = 0.0;
-        for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) of_block += term(g, work, i);
-        part[block] = of_block;
-      });
-      for (const double one : part) sum += one;
-    });
+    for_each_solved(
+        [&](auto& g, Work& work) { sum += sum_over_rows(g.blocks, 0.0, [&](std::size_t i) { return term(g, work, i); }); });
     return sum;
   }
   [[nodiscard]] double size_of_residual() {

@@ -135,6 +135,12 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     else return Vector<Dim>::Zero();
   }
 
+  /// What forcings see of particle i at `time` [s]; `dt` [s] is the step under way, 0 between steps.
+  template <class G>
+  [[nodiscard]] forcing::Subject<Dim> subject(const G& g, std::size_t i, double time, double dt) const noexcept {
+    return {to_components<Dim>(g.positions()[i]), to_components<Dim>(seen_velocity(g, i, dt)), g.mass, time};
+  }
+
  protected:
   using typename Base::Lanes;
   template <class G>
@@ -402,9 +408,8 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_forced<I>)
         if constexpr (I::template concerns<typename G::Tag>) {
-          const forcing::Subject<Dim> subject{to_components<Dim>(g.positions()[i]), to_components<Dim>(seen_velocity(g, i, dt)), g.mass,
-                                              time};
-          std::apply([&](const auto&... law) { ((result += to_vector<Dim>(law.acceleration(subject))), ...); }, active.item.laws);
+          const auto seen = subject(g, i, time, dt);
+          std::apply([&](const auto&... law) { ((result += to_vector<Dim>(law.acceleration(seen))), ...); }, active.item.laws);
         }
     });
     return result;

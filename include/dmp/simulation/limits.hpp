@@ -1,12 +1,15 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <type_traits>
 #include <vector>
 #include <dmp/bond/concept.hpp>
 #include <dmp/core/require.hpp>
+#include <dmp/core/threads.hpp>
+#include <dmp/forcing/concept.hpp>
 #include <dmp/particles/mobility.hpp>
 #include <dmp/simulation/composition.hpp>
 #include <dmp/sweep/step_limit.hpp>
@@ -69,13 +72,14 @@ template <class Integrator, class Engine, class G>
 
 enum class BondKind { all, slow, fast };  ///< fast: the sub-stepped ones
 
-/// What bonds and drags do to the particles of a group: omega^2 <= sum of f k/m and lambda <= sum of f c/m over the bonds of one particle,
-/// plus the drag rates (Gershgorin's circles of the stiffness matrix); f = 2, or 1 where the partner cannot move. Spring and dashpot
-/// together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1.
+/// What bonds and forcings do to the particles of a group: omega^2 <= sum of f k/m and lambda <= sum of f c/m over the bonds of one
+/// particle, plus stiffness/m and damping rates of forcings (Gershgorin's circles of the stiffness matrix); f = 2, or 1 where the partner
+/// cannot move. Spring and dashpot together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1.
 template <class Integrator, class Engine, class G>
-void limit_group(const Engine& engine, const G& g, BondKind kind, sweep::StepLimit& limit) {
+void limit_group(const Engine& engine, const G& g, double time, BondKind kind, sweep::StepLimit& limit) {
   if constexpr (particles::is_mobile<typename G::Mobility>) {
     std::vector<double> stiffness, dashpot;  // omega^2 and lambda of each particle; empty without bonds
+    std::vector<double> forced;              // omega^2 of forcings; empty without any that have a stiffness
     double drag = 0.0;
     engine.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
@@ -103,29 +107,42 @@ void limit_group(const Engine& engine, const G& g, BondKind kind, sweep::StepLim
                 const auto one = [&](const auto& l) {
                   if constexpr (requires { l.damping_rate(g.mass); })
                     if (kind != BondKind::fast) drag += l.damping_rate(g.mass);
+                  if constexpr (requires(const forcing::Subject<G::Dim> subject) { l.stiffness(subject); }) {
+                    if (kind == BondKind::fast) return;
+                    forced.resize(g.size(), 0.0);
+                    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
+                      for (std::size_t i = first; i < last; ++i) forced[i] += l.stiffness(engine.subject(g, i, time, 0.0)) / g.mass;
+                    });
+                  }
                 };
                 (one(law), ...);
               },
               active.item.laws);
     });
     if (drag > 0.0) limit.require_below(Integrator::damping_limit / drag, "drag on " + g.name);
-    for (std::size_t i = 0; i < stiffness.size(); ++i) {
-      const double per_damping = (dashpot[i] + drag) / Integrator::damping_limit;
-      if (stiffness[i] == 0.0) {
-        if (dashpot[i] > 0.0) limit.require_below(1.0 / per_damping, "bond dashpot of " + g.name);
-        continue;
-      }
-      const double oscillation = Integrator::oscillation_limit / std::sqrt(stiffness[i]), half = 0.5 * oscillation * per_damping;
-      limit.require_below(oscillation * (std::sqrt(half * half + 1.0) - half), (half < 0.5 ? "bond stiffness of " : "bond dashpot of ") + g.name);
+    double shortest = std::numeric_limits<double>::infinity();
+    const char* bound_by = "";
+    for (std::size_t i = 0; i < std::max(stiffness.size(), forced.size()); ++i) {
+      const double bonds = stiffness.empty() ? 0.0 : stiffness[i], forcings = forced.empty() ? 0.0 : forced[i];
+      const double damping = dashpot.empty() ? 0.0 : dashpot[i], per_damping = (damping + drag) / Integrator::damping_limit;
+      const double oscillation = Integrator::oscillation_limit / std::sqrt(bonds + forcings), half = 0.5 * oscillation * per_damping;
+      const bool springs = bonds + forcings > 0.0;
+      if (!springs && damping == 0.0) continue;
+      const double bound = springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
+      if (bound >= shortest) continue;
+      shortest = bound;
+      bound_by = !springs || half >= 0.5 ? "bond dashpot of " : forcings > bonds ? "stiffness of a forcing on " : "bond stiffness of ";
+    }
+    if (shortest < std::numeric_limits<double>::infinity()) limit.require_below(shortest, bound_by + g.name);
     }
   }
 }
 
 }  // namespace detail
 
-/// Every law's bound of the time step for the present state: the smallest, and whose it is.
+/// Every law's bound of the time step for the present state: the smallest, and whose it is. `time` [s] as forcings see it.
 template <class Integrator, class Engine>
-[[nodiscard]] sweep::StepLimit find_step_limit(const Engine& engine, bool without_substepped) {
+[[nodiscard]] sweep::StepLimit find_step_limit(const Engine& engine, double time, bool without_substepped) {
   sweep::StepLimit limit;
   std::vector<sweep::StepState> states;
   engine.for_each_group([&](const auto& g) { states.push_back(detail::state_of<Integrator>(engine, g)); });
@@ -149,7 +166,7 @@ template <class Integrator, class Engine>
     }
   });
   engine.for_each_group([&](const auto& g) {
-    detail::limit_group<Integrator>(engine, g, without_substepped ? detail::BondKind::slow : detail::BondKind::all, limit);
+    detail::limit_group<Integrator>(engine, g, time, without_substepped ? detail::BondKind::slow : detail::BondKind::all, limit);
   });
   return limit;
 }
@@ -166,7 +183,7 @@ template <class Integrator, class Engine>
         asked = std::max(asked, active.item.substeps);
       }
   });
-  engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, detail::BondKind::fast, fast); });
+  engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, 0.0, detail::BondKind::fast, fast); });
   const double needed = std::ceil(dt / (0.9 * fast.time_step));
   if (asked > 0 && dt / asked > fast.time_step)
     throw ParameterError("substepped_bonds: substeps must be >= " + to_text(std::ceil(dt / fast.time_step)) + " for a step of " +

@@ -93,7 +93,7 @@ class Scene {
   /// Every law's bound of the time step for the present state; the smallest one, and whose it is.
   [[nodiscard]] sweep::StepLimit step_limit() {
     prepare();
-    return find_step_limit<Integrator>(engine_, has_substeps);
+    return find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
   }
 
   RunReport run(const RunOptions& options) {
@@ -106,7 +106,7 @@ class Scene {
     RunReport report;
     try {
       prepare();
-      report.limit = find_step_limit<Integrator>(engine_, has_substeps);
+      report.limit = find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
       const double first_step = options.time_step > 0.0 ? options.time_step : options.safety * report.limit.time_step;
       if (!(first_step < std::numeric_limits<double>::infinity()))
         throw ParameterError("scene: no law of this scene bounds the time step; give one as time_step");
@@ -127,8 +127,11 @@ class Scene {
       while (begun || goes_further()) {
         if (!begun) {
           if (options.time_step == 0.0 && clock_.step % steps_between_choices == 0) {
-            const auto limit = find_step_limit<Integrator>(engine_, has_substeps);
+            const auto limit = find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
             if (limit.time_step < report.limit.time_step) report.limit = limit;
+            if (!(limit.time_step < std::numeric_limits<double>::infinity()))
+              throw SimulationError("no law of this scene bounds the time step any more; give one as time_step",
+                                    {clock_.time, clock_.step, "", -1, "", 0.0});
             choose_step(options.safety * limit.time_step);
             if (!(clock_.time_step > 1e-6 * first_step))
               throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")",
@@ -358,7 +361,7 @@ class Scene {
   }
   /// A step that the user gave must stay within the bounds as they change.
   void check_step(sweep::StepLimit& smallest) {
-    const auto limit = find_step_limit<Integrator>(engine_, has_substeps);
+    const auto limit = find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
     if (limit.stable_time_step < smallest.stable_time_step) smallest = limit;
     if (clock_.time_step > limit.stable_time_step)
       throw SimulationError(

@@ -1,0 +1,65 @@
+#pragma once
+#include <cmath>
+#include <cstddef>
+#include <dmp/core/require.hpp>
+#include <dmp/core/threads.hpp>
+#include <dmp/core/vector.hpp>
+#include <dmp/forcing/concept.hpp>
+
+namespace dmp::simulation {
+
+/// What a forcing does to a group as a whole.
+template <int Dim>
+struct Load {
+  Vector<Dim> force = Vector<Dim>::Zero();   ///< sum over the particles [N]
+  Vector<Dim> centre = Vector<Dim>::Zero();  ///< their mean position [m], each as much as its force is large
+  std::size_t particles = 0;                 ///< that feel it
+  double radius = 0.0;                       ///< largest distance [m] of one of them from the line through the centre along the force
+};
+
+/// What a forcing does now to the particles of a group, e.g. how hard a plane presses and how wide the contact is:
+///   load_on<Beads>(scene, plane).force
+/// The law need not be part of the scene. At `time` [s], if it is not the scene's. The same bits for any number of threads.
+template <class Tag, class Scene, class Law>
+[[nodiscard]] Load<Scene::dimension> load_on(const Scene& scene, const Law& law, double time) {
+  constexpr int dim = Scene::dimension;
+  static_assert(forcing::explain_forcing<Law, dim>());
+  check_parameters(law);
+  const auto& g = scene.template group<Tag>();
+  const auto force = [&](std::size_t i) -> Vector<dim> {
+    return g.mass * to_vector<dim>(law.acceleration(scene.engine().subject(g, i, time, 0.0)));
+  };
+  struct Sums {
+    Vector<dim> force = Vector<dim>::Zero(), moment = Vector<dim>::Zero();
+    double size = 0.0;
+    std::size_t particles = 0;
+    void operator+=(const Sums& other) {
+      force += other.force;
+      moment += other.moment;
+      size += other.size;
+      particles += other.particles;
+    }
+  };
+  const Sums sums = sum_over_rows(g.blocks, Sums{}, [&](std::size_t i) -> Sums {
+    const Vector<dim> one = force(i);
+    const double size = one.norm();
+    return {one, size * g.positions()[i], size, size > 0.0 ? std::size_t{1} : std::size_t{0}};
+  });
+  Load<dim> load{.force = sums.force, .centre = Vector<dim>::Zero(), .particles = sums.particles, .radius = 0.0};
+  if (!(sums.size > 0.0)) return load;
+  load.centre = sums.moment / sums.size;
+  const double total = sums.force.norm();
+  const Vector<dim> along = total > 0.0 ? Vector<dim>(sums.force / total) : Vector<dim>(Vector<dim>::Zero());
+  for (std::size_t i = 0; i < g.size(); ++i)
+    if (force(i).squaredNorm() > 0.0) {
+      const Vector<dim> from = g.positions()[i] - load.centre;
+      load.radius = std::fmax(load.radius, (from - from.dot(along) * along).norm());
+    }
+  return load;
+}
+template <class Tag, class Scene, class Law>
+[[nodiscard]] Load<Scene::dimension> load_on(const Scene& scene, const Law& law) {
+  return load_on<Tag>(scene, law, scene.time());
+}
+
+}  // namespace dmp::simulation
