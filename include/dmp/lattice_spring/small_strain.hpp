@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +44,7 @@ class SmallStrain {
       if (!(length > 0.0))
         throw ParameterError("lattice_spring::SmallStrain: the ends of a bond must not coincide, got bond (" + std::to_string(bond.i) +
                              ", " + std::to_string(bond.j) + ")");
-      springs_.push_back({bond.i, bond.j, apart / length, k * (1.0 - std::abs(share_))});
+      springs_.push_back({bond.i, bond.j, apart / length, k * (1.0 - std::abs(share_) + springs.added_share)});
       bond_.push_back(b);
       if (share_ == 0.0) continue;
       take_.push_back(k * length);
@@ -65,7 +66,7 @@ class SmallStrain {
   }
   /// K u [N], the force that it takes to hold each bead at its displacement; all components in a row.
   void hold(const double* displacements, double* forces) const {
-    Eigen::Map<Eigen::VectorXd>(forces, size()).setZero();
+    std::fill(forces, forces + size(), 0.0);
     visit(displacements, [&](std::size_t s, double tension) {
       const Spring& spring = springs_[s];
       for (int d = 0; d < Dim; ++d) {
@@ -141,7 +142,7 @@ class SmallStrain {
   struct Spring {
     std::uint32_t i, j;
     Vector<Dim> direction;  // from i to j
-    double direct;          // k (1 - |D|)
+    double direct;          // k (1 - |D|), and what is added
   };
   [[nodiscard]] static double elongation(const Spring& spring, const double* u) noexcept {
     double sum = 0.0;

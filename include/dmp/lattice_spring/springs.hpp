@@ -22,11 +22,14 @@ struct Springs {
   Required<double> stiffness;     ///< k [N/m], > 0, of a bond with weight 1; the direct and the dispersive share together
   double dispersive_share = 0.0;  ///< D, -1/2 <= D <= 1; 0: central springs alone, and no cost. 1 is a fluid, -1/2 has no bulk modulus
   Dispersion dispersion = Dispersion::energy_consistent;
+  double added_share =
+      0.0;  ///< >= 0: springs act directly with k (1 - |D| + this); 1e-6 holds what D = -1/2 or 1 would leave without energy
 };
 inline void validate(const Springs& springs) {
   require_positive("lattice_spring::Springs: stiffness", springs.stiffness, "N/m");
   require(springs.dispersive_share >= -0.5 && springs.dispersive_share <= 1.0,
           "lattice_spring::Springs: dispersive_share must be >= -0.5 and <= 1", springs.dispersive_share);
+  require_not_negative("lattice_spring::Springs: added_share", springs.added_share, "");
 }
 
 /// The springs that give a body these constants while it follows a uniform strain: (1 + 2/N) C = (1/(N^2 V)) sum of k L^2, over the whole
