@@ -210,7 +210,8 @@ void cubes(double edge, std::size_t seeds, bool to_the_end, const io::OutputFold
   }
   result.particles = std::max(result.particles, static_cast<std::size_t>(std::lround(7.1 * cube(edge))));
   (void)io::plot(folder, name + "_stress",
-                 "set datafile separator ','\nset key autotitle columnhead bottom\nset xlabel 'x [a0]'\nset ylabel 'sigma22 [k0/a0]'\n"
+                 "set datafile separator ','\nset termoption noenhanced\nset key autotitle columnhead bottom\nset xlabel 'x [a0]'\nset "
+                 "ylabel 'sigma22 [k0/a0]'\n"
                  "plot for [c=2:6] '" +
                      name + "_line_1.csv' using 1:c with lines lw 2, " + to_text(theory) + " title 'theory' lc black");
 }
@@ -293,11 +294,11 @@ void bars_by_coordination(const std::vector<double>& reaches, std::size_t seeds,
   }
   result.error("B8: largest fall of E with more springs per bead", std::max(0.0, -least_rise), 0.0, "monotone");
   result.error("B8: largest excess of k const over kL const", std::max(0.0, -least_gain), 0.0, "kL const is nearer to theory");
-  (void)io::plot(
-      folder, "bar_coordination",
-      "set datafile separator ','\nset key autotitle columnhead bottom\nset xlabel 'springs per bead inside'\nset ylabel 'E/E_th'\n"
-      "plot for [c=3:" +
-          std::to_string(2 + compared) + "] 'bar_coordination.csv' using 2:c with linespoints lw 2");
+  (void)io::plot(folder, "bar_coordination",
+                 "set datafile separator ','\nset termoption noenhanced\nset key autotitle columnhead bottom\nset xlabel 'springs per bead "
+                 "inside'\nset ylabel 'E/E_th'\n"
+                 "plot for [c=3:" +
+                     std::to_string(2 + compared) + "] 'bar_coordination.csv' using 2:c with linespoints lw 2");
 }
 
 void bars_by_poisson_ratio(std::size_t seeds, const io::OutputFolder& folder, example::Result& result) {

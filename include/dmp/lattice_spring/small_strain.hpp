@@ -64,6 +64,14 @@ class SmallStrain {
     visit(displacements.data()->data(), [&](std::size_t s, double tension) { result[bond_[s]] = tension; });
     return result;
   }
+  /// Forces on the beads [N], -K u.
+  [[nodiscard]] std::vector<Vector<Dim>> forces(std::span<const Vector<Dim>> displacements) const {
+    detail::require_same_size("lattice_spring::SmallStrain", "displacements", displacements.size(), beads_);
+    std::vector<Vector<Dim>> result(beads_);
+    hold(displacements.data()->data(), result.data()->data());
+    for (Vector<Dim>& force : result) force = -force;
+    return result;
+  }
   /// K u [N], the force that it takes to hold each bead at its displacement; all components in a row.
   void hold(const double* displacements, double* forces) const {
     std::fill(forces, forces + size(), 0.0);
