@@ -111,7 +111,8 @@ CubeState expand(Variant variant, double edge, std::uint64_t seed, const Tuning&
 
 void cubes(double edge, std::size_t seeds, bool to_the_end, const io::OutputFolder& folder, example::Result& result) {
   const std::string name = "cube_" + std::to_string(std::lround(edge));
-  const Tuning tuning = to_the_end ? Tuning{.least_step = 0.0, .most_steps = 200} : Tuning{};
+  // To the end: in some networks the limit of change keeps a few beads so far from balance that S_kL stays above 3e-4 (seed 2: 3.1e-4).
+  const Tuning tuning = to_the_end ? Tuning{.imbalance = 0.0, .least_step = 0.0, .most_steps = 200} : Tuning{};
   std::vector<std::array<CubeState, variants>> states(seeds);
   for_each_task(seeds * variants, [&](std::size_t task) {  // the longest first
     const auto variant = static_cast<Variant>(variants - 1 - task / seeds);
@@ -155,8 +156,8 @@ void cubes(double edge, std::size_t seeds, bool to_the_end, const io::OutputFold
     }
   }
   for (const std::size_t v : {kL_tuned, ikL_tuned})  // told, not judged: a bound on time would be a test of the machine
-    std::printf("B12, %s of %zu springs: %.2f s on one thread (sheet: at most %d s for 57,000)\n", variant_name[v], states[0][v].springs,
-                wall[v], v == kL_tuned ? 2 : 10);
+    std::printf("B12, %s of %zu springs%s: %.2f s on one thread (sheet, of 57,000 springs: at most %d s)\n", variant_name[v],
+                states[0][v].springs, v == kL_tuned && to_the_end ? ", 200 solves" : "", wall[v], v == kL_tuned ? 2 : 10);
 
   // The worst seed of each. What has no sign goes from 0; what may lie anywhere in a range is given as distance from its middle.
   const auto worst = [&](const std::string& what, Variant v, const auto& value, double lowest, double highest) {
