@@ -134,7 +134,6 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, s
       bound_by = !springs || half >= 0.5 ? "bond dashpot of " : forcings > bonds ? "stiffness of a forcing on " : "bond stiffness of ";
     }
     if (shortest < std::numeric_limits<double>::infinity()) limit.require_below(shortest, bound_by + g.name);
-    }
   }
 }
 
