@@ -131,7 +131,7 @@ template <SolidShape S>
       }
     for (std::size_t b = 0; b < sum.size(); ++b)
       if (weight[b] > 0.0) balance.change(b, body.bonds[b].weight * (1.0 - tuning.step * sum[b] / (weight[b] * balance.squared_length(b))));
-    balance.step(1e-3, 1.0);
+    balance.step(1e-2, 1.0);  // the next one goes on from there
   }
   if (probes == 0) report.end = TuningEnd::stagnated;
   balance.finish(report);
