@@ -35,21 +35,12 @@ struct Case {
     return std::string(shell < core ? "HC-SS" : "SC-HS") + " " + to_text(std::min(core, shell)) + ", h/r " + to_text(thickness);
   }
 };
-const std::vector<Case> cases{{1.0, 0.1, 0.05, {0.243, 0.239}},
-                              {1.0, 0.1, 0.1, {0.210, 0.214}},
-                              {1.0, 0.1, 0.2, {0.154, 0.154}, true},
-                              {1.0, 0.1, 0.3, {0.133, 0.130}},
-                              {1.0, 0.1, 0.4, {0.120, 0.118}, true},
-                              {1.0, 0.1, 0.5, {0.113, 0.112}},
-                              {0.01, 1.0, 0.05, {0.059, 0.058}},
-                              {0.01, 1.0, 0.1, {0.123, 0.126}},
-                              {0.01, 1.0, 0.2, {0.309, 0.338}, true},
-                              {0.01, 1.0, 0.4, {0.689, 0.733}, true},
-                              {0.01, 1.0, 0.5, {0.823, 0.846}},
-                              {0.1, 1.0, 0.2, {0.441, 0.479}},
-                              {0.001, 1.0, 0.2, {0.292, 0.319}},
-                              {0.001, 1.0, 0.3, {0.492, 0.540}},
-                              {0.001, 1.0, 0.4, {0.680, 0.725}}};
+const std::vector<Case> cases{
+    {1.0, 0.1, 0.05, {0.243, 0.239}},       {1.0, 0.1, 0.1, {0.210, 0.214}},       {1.0, 0.1, 0.2, {0.154, 0.154}, true},
+    {1.0, 0.1, 0.3, {0.133, 0.130}},        {1.0, 0.1, 0.4, {0.120, 0.118}, true}, {1.0, 0.1, 0.5, {0.113, 0.112}},
+    {0.01, 1.0, 0.05, {0.059, 0.058}},      {0.01, 1.0, 0.1, {0.123, 0.126}},      {0.01, 1.0, 0.2, {0.309, 0.338}, true},
+    {0.01, 1.0, 0.4, {0.689, 0.733}, true}, {0.01, 1.0, 0.5, {0.823, 0.846}},      {0.1, 1.0, 0.2, {0.441, 0.479}},
+    {0.001, 1.0, 0.2, {0.292, 0.319}},      {0.001, 1.0, 0.3, {0.492, 0.540}},     {0.001, 1.0, 0.4, {0.680, 0.725}}};
 
 struct Found {
   double force;           // at 5 % [N]
@@ -65,10 +56,12 @@ Found compress(const lattice_spring::Body<3>& body, const Case& of, example::Res
       bonds<Beads, Beads>(bond::Harmonic{.stiffness = of.core * hard}, bonded.core),
       bonds<Beads, Beads>(bond::Harmonic{.stiffness = of.shell * hard}, bonded.shell), forced_by<Beads>(below, above));
   std::uint64_t evaluations = 0;
-  const auto curve = example::press(
-      scene, below, above,
-      {.approach = 2.0 * radius * squeezed, .largest_step = 0.3 * std::cbrt(body.points.volume), .force_tolerance = 1e-5 * hard * std::cbrt(body.points.volume) * std::max(std::min(of.core, of.shell), 0.01)},
-      evaluations, [](const auto&) {});
+  const auto curve =
+      example::press(scene, below, above,
+                     {.approach = 2.0 * radius * squeezed,
+                      .largest_step = 0.3 * std::cbrt(body.points.volume),
+                      .force_tolerance = 1e-5 * hard * std::cbrt(body.points.volume) * std::max(std::min(of.core, of.shell), 0.01)},
+                     evaluations, [](const auto&) {});
   result.particles = std::max(result.particles, scene.particles());
   result.steps += evaluations;
   result.particle_steps += static_cast<double>(evaluations) * static_cast<double>(scene.particles());
@@ -76,7 +69,8 @@ Found compress(const lattice_spring::Body<3>& body, const Case& of, example::Res
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.wall_seconds += seconds;
   const lattice_spring::Hertz unit{.radius = radius, .youngs_modulus = 1.0, .poisson_ratio = poisson_ratio};
-  std::printf("%-24s F %.5g N, %llu evaluations, %.1f s, plates differ by %.1e\n", of.name().c_str(), curve.back().force, static_cast<unsigned long long>(evaluations), seconds, curve.back().difference);
+  std::printf("%-24s F %.5g N, %llu evaluations, %.1f s, plates differ by %.1e\n", of.name().c_str(), curve.back().force,
+              static_cast<unsigned long long>(evaluations), seconds, curve.back().difference);
   std::fflush(stdout);
   return {.force = curve.back().force, .youngs_modulus = curve.back().force / unit.force(2.0 * radius * squeezed)};
 }
@@ -84,7 +78,9 @@ Found compress(const lattice_spring::Body<3>& body, const Case& of, example::Res
 int run(const example::Options& options) {
   const io::OutputFolder folder(options.output);
   example::Result result{.example = "core_shell_sphere", .test_case = "A10, A11, A12, A13, A14", .resolution = "about 5,900 beads"};
-  io::CsvTable table(folder / "core_shell.csv", {{"seed", "-"}, {"core/hard", "-"}, {"shell/hard", "-"}, {"h/r", "-"}, {"force/that of the hard ball", "-"}, {"E", "Pa"}});
+  io::CsvTable table(
+      folder / "core_shell.csv",
+      {{"seed", "-"}, {"core/hard", "-"}, {"shell/hard", "-"}, {"h/r", "-"}, {"force/that of the hard ball", "-"}, {"E", "Pa"}});
   const std::uint64_t seeds = options.size == example::Size::full ? 5 : 1;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     auto body = example::network_ball(5921, seed);
@@ -96,19 +92,22 @@ int run(const example::Options& options) {
       const double ratio = found.force / all_hard.force, expected = 0.5 * (one.ratio[0] + one.ratio[1]);
       table.row({static_cast<double>(seed), one.core, one.shell, one.thickness, ratio, found.youngs_modulus});
       done.emplace_back(one, ratio);
-      result.error(one.name() + ", seed " + std::to_string(seed) + ": F/F_hard - " + to_text(expected), ratio - expected, std::max(0.03, 0.15 * expected), "independent solver, RSA networks");
+      result.error(one.name() + ", seed " + std::to_string(seed) + ": F/F_hard - " + to_text(expected), ratio - expected,
+                   std::max(0.03, 0.15 * expected), "independent solver, RSA networks");
     }
     double against = 0.0, least = 1.0;  // more force where there is less of the hard material; the smallest force of a soft shell
     for (const auto& [a, force_a] : done) {
       if (a.shell < a.core) least = std::min(least, force_a);
       for (const auto& [b, force_b] : done) {
         const bool softer = a.core <= b.core && a.shell <= b.shell && a.thickness == b.thickness;
-        const bool same = a.core == b.core && a.shell == b.shell, less_hard = a.shell < a.core ? a.thickness > b.thickness : a.thickness < b.thickness;
+        const bool same = a.core == b.core && a.shell == b.shell,
+                   less_hard = a.shell < a.core ? a.thickness > b.thickness : a.thickness < b.thickness;
         if (softer || (same && less_hard)) against = std::max(against, force_a - force_b);
       }
     }
     result.error("A14, seed " + std::to_string(seed) + ": largest force against the trend", against, 0.0, "monotone in k and h/r");
-    result.error("A11, seed " + std::to_string(seed) + ": HC-SS below the soft solid", std::max(0.0, 0.1 - least), 0.0, "0.1 of the hard ball");
+    result.error("A11, seed " + std::to_string(seed) + ": HC-SS below the soft solid", std::max(0.0, 0.1 - least), 0.0,
+                 "0.1 of the hard ball");
   }
   io::plot(folder, "core_shell",
            "set datafile separator ','\nset xlabel 'h/r'\nset ylabel 'force at 5 %, of the hard ball'\nset key right center\n"
@@ -122,5 +121,6 @@ int run(const example::Options& options) {
 
 int main(int argc, char** argv) {
   return example::guarded("core_shell_sphere", run,
-                          example::options(argc, argv, "core_shell_sphere", "Balls with a hard core and a soft shell, or the reverse, between plates (A10 to A14)."));
+                          example::options(argc, argv, "core_shell_sphere",
+                                           "Balls with a hard core and a soft shell, or the reverse, between plates (A10 to A14)."));
 }

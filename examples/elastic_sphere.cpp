@@ -35,11 +35,13 @@ struct Orientation {
   std::string name;
   double w, x, y, z;
 };
-const Orientation q1{"q1", -0.467424, -0.047608, 0.829916, -0.300813}, q2{"q2", -0.748238, -0.507771, -0.351756, -0.242025}, along_layers{"001", 1.0, 0.0, 0.0, 0.0};
+const Orientation q1{"q1", -0.467424, -0.047608, 0.829916, -0.300813}, q2{"q2", -0.748238, -0.507771, -0.351756, -0.242025},
+    along_layers{"001", 1.0, 0.0, 0.0, 0.0};
 
 lattice_spring::Body<3> ordered(int beads_in_radius, const Orientation& q) {
   const double spacing = radius / beads_in_radius;
-  const lattice_spring::CubicLattice lattice{.spacing = spacing, .orientation = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix()};
+  const lattice_spring::CubicLattice lattice{.spacing = spacing,
+                                             .orientation = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix()};
   return lattice_spring::lattice_body(lattice, example::around_ball(), example::ball(radius - 1e-6 * spacing));
 }
 
@@ -86,17 +88,26 @@ Found compress(lattice_spring::Body<3> body, const Setup& setup, const io::Outpu
   const auto start = std::chrono::steady_clock::now();
   lattice_spring::measure_rest_lengths<3>(body.bonds, body.points.positions);
   const auto below = example::plate(body.points.positions, -1.0), above = example::plate(body.points.positions, 1.0);
-  auto scene = simulation::scene<integrator::Leapfrog>(geometry::Box<3>::unbounded(), group<Beads>("beads", Mobile{}, body.points, density * setup.volume_per_bead),
+  auto scene = simulation::scene<integrator::Leapfrog>(geometry::Box<3>::unbounded(),
+                                                       group<Beads>("beads", Mobile{}, body.points, density * setup.volume_per_bead),
                                                        bonds<Beads, Beads>(spring, body.bonds), forced_by<Beads>(below, above));
-  io::CsvTable table(folder / ("force_" + setup.name + ".csv"), {{"delta/2R", "-"}, {"force", "N"}, {"difference of the plates", "-"}, {"contact radius", "m"}, {"penetration", "m"}, {"touching", "-"}});
+  io::CsvTable table(folder / ("force_" + setup.name + ".csv"), {{"delta/2R", "-"},
+                                                                 {"force", "N"},
+                                                                 {"difference of the plates", "-"},
+                                                                 {"contact radius", "m"},
+                                                                 {"penetration", "m"},
+                                                                 {"touching", "-"}});
   Found found{};
   std::uint64_t evaluations = 0;
   // steps that hit all the points of the fit, and are not larger than 0.3 spacings
   const int steps = 8 * static_cast<int>(std::ceil(deepest * 2.0 * radius / (8.0 * 0.3 * setup.spacing)));
   found.curve = example::press(scene, below, above,
-                               {.approach = 2.0 * radius * deepest, .largest_step = 2.0 * radius * deepest / steps, .force_tolerance = 1e-5 * stiffness * setup.spacing}, evaluations,
-                               [&](const example::Pressed& now) {
-                                 table.row({now.approach / (2.0 * radius), now.force, now.difference, now.contact_radius, now.penetration, static_cast<double>(now.touching)});
+                               {.approach = 2.0 * radius * deepest,
+                                .largest_step = 2.0 * radius * deepest / steps,
+                                .force_tolerance = 1e-5 * stiffness * setup.spacing},
+                               evaluations, [&](const example::Pressed& now) {
+                                 table.row({now.approach / (2.0 * radius), now.force, now.difference, now.contact_radius, now.penetration,
+                                            static_cast<double>(now.touching)});
                                });
   std::vector<double> approach, force;  // 8 points, to 10 %
   double difference = 0.0;
@@ -120,15 +131,19 @@ Found compress(lattice_spring::Body<3> body, const Setup& setup, const io::Outpu
   found.folded = lattice_spring::folded_beads<3>(body.bonds, body.points.positions, now).size();
   look_below(now, shear, setup, -0.5 * (below.position + above.position) - 0.5 * found.curve.back().approach, found);
   io::write_vtp(folder / ("stress_" + setup.name + ".vtp"),
-                io::PointCloud<3>{.positions = now, .ids = scene.group<Beads>().id, .data = {{.name = "largest shear stress [Pa]", .values = shear}, {.name = "stress [Pa]", .values = all, .components = 9}}});
+                io::PointCloud<3>{.positions = now,
+                                  .ids = scene.group<Beads>().id,
+                                  .data = {{.name = "largest shear stress [Pa]", .values = shear},
+                                           {.name = "stress [Pa]", .values = all, .components = 9}}});
   result.error("plates apart in force, " + setup.name, difference, 0.01, "at rest");
   result.particles = std::max(result.particles, now.size());
   result.steps += evaluations;
   result.particle_steps += static_cast<double>(evaluations) * static_cast<double>(now.size());
   result.bytes_per_particle = bytes_per_particle(scene);
   result.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%-14s %7zu beads, %5.0f evaluations per state of rest, %zu beads folded, zero of delta %+.2f spacings, shear %.3f p0\n", setup.name.c_str(), now.size(),
-              static_cast<double>(evaluations) / static_cast<double>(found.curve.size()), found.folded, found.fit.zero / setup.spacing, found.shear);
+  std::printf("%-14s %7zu beads, %5.0f evaluations per state of rest, %zu beads folded, zero of delta %+.2f spacings, shear %.3f p0\n",
+              setup.name.c_str(), now.size(), static_cast<double>(evaluations) / static_cast<double>(found.curve.size()), found.folded,
+              found.fit.zero / setup.spacing, found.shear);
   std::fflush(stdout);
   return found;
 }
@@ -152,7 +167,8 @@ Found lattice_ball(int beads_in_radius, const Orientation& q, const io::OutputFo
 Found network_ball_pressed(std::size_t beads, std::uint64_t seed, const io::OutputFolder& folder, example::Result& result) {
   const auto body = example::network_ball(beads, seed);
   const double affine = 1.5 * lattice_spring::affine_bulk_modulus(body, stiffness), spacing = std::cbrt(body.points.volume);
-  Found found = compress(body, {"network_" + std::to_string(beads) + "_" + std::to_string(seed), spacing, body.points.volume, 1.3 * spacing}, folder, result);
+  Found found = compress(
+      body, {"network_" + std::to_string(beads) + "_" + std::to_string(seed), spacing, body.points.volume, 1.3 * spacing}, folder, result);
   found.modulus_over_affine = found.fit.youngs_modulus / affine;
   std::printf("  E14 %.2f MPa, E/E14 %.3f, depth %.3f a\n", 1e-6 * affine, found.modulus_over_affine, found.depth_per_contact);
   return found;
@@ -174,20 +190,23 @@ int run(const example::Options& options) {
   }
   if (options.size == Size::normal) {
     const Found found = lattice_ball(20, q1, folder, result);
-    result.error("A5, R = 20 l, q1: depth of the largest shear/a - 0.5", middle(found.depth_per_contact, 0.35, 0.65), 0.15, "theory 0.464; 0.35 to 0.65");
+    result.error("A5, R = 20 l, q1: depth of the largest shear/a - 0.5", middle(found.depth_per_contact, 0.35, 0.65), 0.15,
+                 "theory 0.464; 0.35 to 0.65");
   }
   if (full) {
     struct Row {
       const Orientation& q;
       std::array<double, 4> force;  // F/(k l) at 2.5, 5, 7.5, 10 %: an independent solver
     };
-    const std::array<Row, 3> rows{{{q1, {9.474, 32.83, 65.23, 105.39}}, {q2, {9.972, 33.48, 65.79, 105.50}}, {along_layers, {35.42, 66.89, 112.4, 159.0}}}};
+    const std::array<Row, 3> rows{
+        {{q1, {9.474, 32.83, 65.23, 105.39}}, {q2, {9.972, 33.48, 65.79, 105.50}}, {along_layers, {35.42, 66.89, 112.4, 159.0}}}};
     for (const Row& row : rows) {
       const Found found = lattice_ball(32, row.q, folder, result);
       const std::string of = ", R = 32 l, " + row.q.name + ": ";
       for (std::size_t n = 0; n < 4; ++n) {
         const double ratio = 0.025 * static_cast<double>(n + 1);
-        std::printf("  F/(k l) at %4.1f %%: %8.3f, sheet %8.3f\n", 100.0 * ratio, force_at(found.curve, ratio) / (stiffness * radius / 32), row.force[n]);
+        std::printf("  F/(k l) at %4.1f %%: %8.3f, sheet %8.3f\n", 100.0 * ratio, force_at(found.curve, ratio) / (stiffness * radius / 32),
+                    row.force[n]);
       }
       if (&row.q == &along_layers) {
         std::printf("  E/E_theory %.3f, sheet 1.14: a flat punch, no Hertz contact\n", modulus(found, 32));
@@ -195,7 +214,8 @@ int run(const example::Options& options) {
       }
       result.error("A4" + of + "E/E_theory - 0.985", middle(modulus(found, 32), 0.95, 1.02), 0.035, "0.95 to 1.02");
       result.error("A4" + of + "residual of the fit", found.fit.residual, 0.02, "F^(2/3) a line");
-      result.error("A5" + of + "depth of the largest shear/a - 0.49", middle(found.depth_per_contact, 0.42, 0.56), 0.07, "theory 0.464; 0.42 to 0.56");
+      result.error("A5" + of + "depth of the largest shear/a - 0.49", middle(found.depth_per_contact, 0.42, 0.56), 0.07,
+                   "theory 0.464; 0.42 to 0.56");
     }
   }
 
@@ -225,7 +245,9 @@ int run(const example::Options& options) {
            "set datafile separator ','\nset xlabel 'delta/2R'\nset ylabel '(F/(E R^2))^{2/3}'\nset key top left\n"
            "plot (sqrt(2.0*2.0**3)/(3*0.9375))**(2.0/3.0)*x with lines lw 2 title 'Hertz', 'force_q1_16.csv' using 1:(($2/" +
                to_text(2.5 * stiffness * 16 * radius) + ")**(2.0/3.0)) skip 1 with points pt 7 title 'cubic lattice, R = 16 l'" +
-               std::string(full ? ", 'force_q1_32.csv' using 1:(($2/" + to_text(2.5 * stiffness * 32 * radius) + ")**(2.0/3.0)) skip 1 with points pt 5 title 'cubic lattice, R = 32 l'" : ""));
+               std::string(full ? ", 'force_q1_32.csv' using 1:(($2/" + to_text(2.5 * stiffness * 32 * radius) +
+                                      ")**(2.0/3.0)) skip 1 with points pt 5 title 'cubic lattice, R = 32 l'"
+                                : ""));
   return result.print();
 }
 
@@ -233,5 +255,6 @@ int run(const example::Options& options) {
 
 int main(int argc, char** argv) {
   return example::guarded("elastic_sphere", run,
-                          example::options(argc, argv, "elastic_sphere", "An elastic ball of beads and springs between two plates, against Hertz (A4, A5, A6, A7)."));
+                          example::options(argc, argv, "elastic_sphere",
+                                           "An elastic ball of beads and springs between two plates, against Hertz (A4, A5, A6, A7)."));
 }

@@ -25,13 +25,17 @@ using particles::Mobile;
 namespace {
 
 constexpr double radius = example::ball_radius, density = 1000.0;  // R [m]
-constexpr double small = 0.02, large = 0.06;  // delta/2R at the stop
+constexpr double small = 0.02, large = 0.06;                       // delta/2R at the stop
 constexpr int ramp_steps = 40;
 
 /// Positions of the beads, pressed step by step to rest. The springs may change from one step to the next.
 class Press {
  public:
-  Press(const lattice_spring::Body<3>& body, double stiffness) : x_(body.points.positions), mass_(density * body.points.volume), below_(example::plate(x_, -1.0)), above_(example::plate(x_, 1.0)),
+  Press(const lattice_spring::Body<3>& body, double stiffness)
+      : x_(body.points.positions),
+        mass_(density * body.points.volume),
+        below_(example::plate(x_, -1.0)),
+        above_(example::plate(x_, 1.0)),
         tolerance_(1e-7 * stiffness * std::cbrt(body.points.volume)) {}
 
   /// The force [N] at this approach [m].
@@ -86,7 +90,8 @@ std::vector<double> elastic_forces(const lattice_spring::Body<3>& body, double s
 
 /// Viscoelastic force at each step of dt, `hold_steps` of them after the stop.
 template <class Law>
-std::vector<double> forces(const std::string& name, const lattice_spring::Body<3>& body, double squeezed, const Law& law, double dt, int hold_steps, example::Result& result) {
+std::vector<double> forces(const std::string& name, const lattice_spring::Body<3>& body, double squeezed, const Law& law, double dt,
+                           int hold_steps, example::Result& result) {
   Press press(body, law.stiffness);
   lattice_spring::InertiaFreeStep<3> step(law, dt, body.bonds, press.positions());
   std::vector<double> force{0.0};
@@ -98,9 +103,11 @@ std::vector<double> forces(const std::string& name, const lattice_spring::Body<3
   return force;
 }
 
-void write(const io::OutputFolder& folder, const std::string& name, double squeezed, double dt, const std::vector<double>& force, const std::vector<double>& expected) {
+void write(const io::OutputFolder& folder, const std::string& name, double squeezed, double dt, const std::vector<double>& force,
+           const std::vector<double>& expected) {
   io::CsvTable table(folder / (name + ".csv"), {{"time", "s"}, {"delta/2R", "-"}, {"force", "N"}, {"expected", "N"}});
-  for (std::size_t n = 0; n < force.size(); ++n) table.row({static_cast<double>(n) * dt, approach_at(squeezed, static_cast<int>(n)) / (2.0 * radius), force[n], expected[n]});
+  for (std::size_t n = 0; n < force.size(); ++n)
+    table.row({static_cast<double>(n) * dt, approach_at(squeezed, static_cast<int>(n)) / (2.0 * radius), force[n], expected[n]});
 }
 double relative_l2(const std::vector<double>& force, const std::vector<double>& expected, std::size_t last) {
   double difference = 0.0, all = 0.0;
@@ -109,8 +116,8 @@ double relative_l2(const std::vector<double>& force, const std::vector<double>& 
 }
 
 /// A8a, A8b: Kelvin-Voigt bonds, a ramp of `ramp_in_tau` relaxation times.
-void kelvin_voigt(const std::string& name, const lattice_spring::Body<3>& body, double squeezed, const std::vector<double>& elastic, double ramp_in_tau, double bound, const io::OutputFolder& folder,
-                  example::Result& result) {
+void kelvin_voigt(const std::string& name, const lattice_spring::Body<3>& body, double squeezed, const std::vector<double>& elastic,
+                  double ramp_in_tau, double bound, const io::OutputFolder& folder, example::Result& result) {
   constexpr bond::KelvinVoigt law{.stiffness = 200.0, .damping = 1e-6};
   constexpr double tau = law.damping / law.stiffness;
   constexpr int last = ramp_steps;
@@ -129,13 +136,15 @@ void kelvin_voigt(const std::string& name, const lattice_spring::Body<3>& body, 
   if (squeezed <= small) result.error("A8b, " + of + "drop at the stop - 1", drop, 0.03, "tau dF_el/dt");
   else std::printf("%sdrop at the stop %+.3f from tau dF_el/dt: finite strain\n", of.c_str(), drop);
   double drift = 0.0;
-  for (std::size_t n = last + static_cast<std::size_t>(settled); n < force.size(); ++n) drift = std::max(drift, std::fabs(force[n] / force.back() - 1.0));
+  for (std::size_t n = last + static_cast<std::size_t>(settled); n < force.size(); ++n)
+    drift = std::max(drift, std::fabs(force[n] / force.back() - 1.0));
   result.error("A8b, " + of + "drift on hold after 0.75 tau", drift, 0.005, "none");
   result.error("A8a, " + of + "F/F_el at the end - 1", force.back() / elastic[last] - 1.0, 0.005, "elastic ball at the same delta");
 }
 
 /// A8c: standard linear solids with E_inf : E_0 = 34 : 54, a ramp of two relaxation times.
-void linear_solid(const std::string& name, const lattice_spring::Body<3>& body, double squeezed, const io::OutputFolder& folder, example::Result& result) {
+void linear_solid(const std::string& name, const lattice_spring::Body<3>& body, double squeezed, const io::OutputFolder& folder,
+                  example::Result& result) {
   constexpr double tau = 4.6e-5;
   constexpr bond::StandardLinearSolid law{.stiffness = 170.0, .branch_stiffness = 100.0, .branch_damping = 100.0 * tau};
   constexpr double dt = 2.0 * tau / ramp_steps;
@@ -168,7 +177,8 @@ void linear_solid(const std::string& name, const lattice_spring::Body<3>& body, 
 
 lattice_spring::Body<3> ordered(int beads_in_radius) {  // the sheet's orientation q1
   const double spacing = radius / beads_in_radius;
-  const lattice_spring::CubicLattice lattice{.spacing = spacing, .orientation = Eigen::Quaterniond(-0.467424, -0.047608, 0.829916, -0.300813).normalized().toRotationMatrix()};
+  const lattice_spring::CubicLattice lattice{
+      .spacing = spacing, .orientation = Eigen::Quaterniond(-0.467424, -0.047608, 0.829916, -0.300813).normalized().toRotationMatrix()};
   return lattice_spring::lattice_body(lattice, example::around_ball(), example::ball(radius - 1e-6 * spacing));
 }
 
@@ -191,8 +201,10 @@ int run(const example::Options& options) {
     kelvin_voigt("network", network, small, elastic_forces(network, small, 200.0, result), 10.0, 0.02, folder, result);
     io::plot(folder, "viscoelastic_sphere",
              "set datafile separator ','\nset multiplot layout 1, 2\nset xlabel 'time [s]'\nset ylabel 'force [N]'\nset key bottom right\n"
-             "plot 'kelvin_voigt_lattice_6_10.csv' using 1:4 skip 1 with lines lw 2 title 'F_{el} + tau dF_{el}/dt', '' using 1:3 skip 1 with points pt 7 title 'Kelvin-Voigt'\n"
-             "plot 'linear_solid.csv' using 1:4 skip 1 with lines lw 2 title 'F_{el} convolved', '' using 1:3 skip 1 with points pt 7 title 'standard linear solid'\nunset multiplot");
+             "plot 'kelvin_voigt_lattice_6_10.csv' using 1:4 skip 1 with lines lw 2 title 'F_{el} + tau dF_{el}/dt', '' using 1:3 skip 1 "
+             "with points pt 7 title 'Kelvin-Voigt'\n"
+             "plot 'linear_solid.csv' using 1:4 skip 1 with lines lw 2 title 'F_{el} convolved', '' using 1:3 skip 1 with points pt 7 "
+             "title 'standard linear solid'\nunset multiplot");
   }
   return result.print();
 }
@@ -201,5 +213,6 @@ int run(const example::Options& options) {
 
 int main(int argc, char** argv) {
   return example::guarded("viscoelastic_sphere", run,
-                          example::options(argc, argv, "viscoelastic_sphere", "Balls of viscoelastic bonds between plates, loaded and held, without inertia (A8, A9)."));
+                          example::options(argc, argv, "viscoelastic_sphere",
+                                           "Balls of viscoelastic bonds between plates, loaded and held, without inertia (A8, A9)."));
 }

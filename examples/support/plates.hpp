@@ -22,8 +22,9 @@ constexpr double ball_radius = 0.4e-3;  // R [m]
 /// The ball as a random network, nearly jammed, of about 17.5 bonds per bead.
 [[nodiscard]] inline dmp::lattice_spring::Body<3> network_ball(std::size_t beads, std::uint64_t seed) {
   const double least_distance = ball_radius / 12.5 * std::cbrt(5921.0 / static_cast<double>(beads));
-  const auto points = dmp::lattice_spring::random_points<3>({.least_distance = least_distance, .most_points = beads, .seed = seed}, around_ball(),
-                                                            ball(), 4.0 / 3.0 * std::numbers::pi * ball_radius * ball_radius * ball_radius);
+  const auto points =
+      dmp::lattice_spring::random_points<3>({.least_distance = least_distance, .most_points = beads, .seed = seed}, around_ball(), ball(),
+                                            4.0 / 3.0 * std::numbers::pi * ball_radius * ball_radius * ball_radius);
   return dmp::lattice_spring::network(points, 1.924 * least_distance);
 }
 
@@ -39,12 +40,12 @@ constexpr double plate_strength = 1e10;  // S [N/m^2]
 
 /// One state of the body at rest between the plates.
 struct Pressed {
-  double approach;                    // delta of the plates since first touch [m]
-  double force;                       // mean of both plates [N]
-  double difference;                  // of their forces, as a fraction
-  double contact_radius;              // mean of both [m]
-  double penetration;                 // sqrt(force per bead/S), of one plate: by so much the beads approach less than the plates [m]
-  std::size_t touching;               // beads, both plates
+  double approach;        // delta of the plates since first touch [m]
+  double force;           // mean of both plates [N]
+  double difference;      // of their forces, as a fraction
+  double contact_radius;  // mean of both [m]
+  double penetration;     // sqrt(force per bead/S), of one plate: by so much the beads approach less than the plates [m]
+  std::size_t touching;   // beads, both plates
 };
 
 struct PressOptions {
@@ -55,17 +56,19 @@ struct PressOptions {
 
 /// Presses a scene of Beads between its plates in equal steps, from one state of rest to the next; looked_at(pressed) after each.
 template <class Scene, class Look>
-std::vector<Pressed> press(Scene& scene, const dmp::forcing::Plane<3>& below, const dmp::forcing::Plane<3>& above, const PressOptions& options,
-                           std::uint64_t& evaluations, const Look& looked_at) {
+std::vector<Pressed> press(Scene& scene, const dmp::forcing::Plane<3>& below, const dmp::forcing::Plane<3>& above,
+                           const PressOptions& options, std::uint64_t& evaluations, const Look& looked_at) {
   std::vector<Pressed> curve;
   const int steps = static_cast<int>(std::ceil(options.approach / options.largest_step - 1e-9));
   const double height = -below.position - above.position, step = options.approach / steps;
   for (int n = 1; n <= steps; ++n) {
     const double approach = n * step;
     for (auto& x : scene.template group<Beads>().positions()) x[2] *= (height - approach) / (height - approach + step);  // a first guess
-    const auto report = dmp::simulation::relax(scene, {.force_tolerance = options.force_tolerance, .time = approach, .without_rotation = true});
+    const auto report =
+        dmp::simulation::relax(scene, {.force_tolerance = options.force_tolerance, .time = approach, .without_rotation = true});
     evaluations += report.evaluations;
-    const auto low = dmp::simulation::load_on<Beads>(scene, below, approach), high = dmp::simulation::load_on<Beads>(scene, above, approach);
+    const auto low = dmp::simulation::load_on<Beads>(scene, below, approach),
+               high = dmp::simulation::load_on<Beads>(scene, above, approach);
     const double force = 0.5 * (low.force[2] - high.force[2]);
     const std::size_t touching = low.particles + high.particles;
     curve.push_back({.approach = approach,

@@ -13,10 +13,8 @@ forcing::Subject<2> bead(double y, double time = 0.0, double mass = 2.0) { retur
 TEST_CASE("planes obey the laws of forcings in 1D, 2D and 3D") {
   check_forcing_laws<1>(forcing::Plane<1>{.normal = {{-1.0}}, .position = 0.5, .strength = 1e10});
   check_forcing_laws<2>(floor_plane);
-  check_forcing_laws<3>(forcing::Plane<3>{.normal = {{0.0, 0.6, 0.8}},
-                                          .position = 1.0,
-                                          .strength = 1.0,
-                                          .motion = {.speed = 0.1, .start_up = 2.0, .hold_from = 5.0}});
+  check_forcing_laws<3>(forcing::Plane<3>{
+      .normal = {{0.0, 0.6, 0.8}}, .position = 1.0, .strength = 1.0, .motion = {.speed = 0.1, .start_up = 2.0, .hold_from = 5.0}});
 }
 
 TEST_CASE("A.6: a plane pushes with S d^2 what is d behind it, along its normal, and leaves alone what is not") {

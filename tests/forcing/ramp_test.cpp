@@ -20,7 +20,8 @@ TEST_CASE("a ramp starts smoothly at 0, reaches its speed after the start-up, an
 }
 
 TEST_CASE("the displacement of a ramp is the integral of its velocity") {
-  for (const double t : {0.5, 1.0, 2.0}) CHECK(ramp.displacement(t) == doctest::Approx(test::integral([](double s) { return ramp.velocity(s); }, 0.0, t)).epsilon(1e-10));
+  for (const double t : {0.5, 1.0, 2.0})
+    CHECK(ramp.displacement(t) == doctest::Approx(test::integral([](double s) { return ramp.velocity(s); }, 0.0, t)).epsilon(1e-10));
   CHECK(ramp.displacement(4.0) - ramp.displacement(2.0) == doctest::Approx(-6.0).epsilon(1e-14));
 }
 
@@ -33,7 +34,8 @@ TEST_CASE("a ramp without start-up or hold is uniform motion") {
 
 TEST_CASE("ramps refuse to hold before they are at speed") {
   CHECK(test::complaint_about(forcing::Ramp{.speed = INFINITY}) == "forcing::Ramp: speed must be finite [m/s], got inf");
-  CHECK(test::complaint_about(forcing::Ramp{.speed = 1.0, .start_up = -1.0}) == "forcing::Ramp: start_up must be finite and >= 0 s, got -1");
+  CHECK(test::complaint_about(forcing::Ramp{.speed = 1.0, .start_up = -1.0}) ==
+        "forcing::Ramp: start_up must be finite and >= 0 s, got -1");
   CHECK(test::complaint_about(forcing::Ramp{.speed = 1.0, .start_up = 2.0, .hold_from = 1.0}) ==
         "forcing::Ramp: hold_from must be >= start_up [s], got 1");
 }

@@ -36,7 +36,9 @@ TEST_CASE("A1 without mass: creep of a Kelvin-Voigt bond is (F/k)(1 - exp(-t k/b
   CHECK(std::log2(error(1000) / error(2000)) == doctest::Approx(1.0).epsilon(0.01));
 }
 
-TEST_CASE("A8c: creep of a standard linear solid is its closed form, with the first order of a load put on within a step, and relaxation at a fixed length is exact") {
+TEST_CASE(
+    "A8c: creep of a standard linear solid is its closed form, with the first order of a load put on within a step, and relaxation at a "
+    "fixed length is exact") {
   const bond::StandardLinearSolid law{.stiffness = 1.7, .branch_stiffness = 1.0, .branch_damping = 4.0};
   const double time_constant = 4.0 * 2.7 / (1.7 * 1.0), exact = 1.0 / 1.7 * (1.0 - 1.0 / 2.7 * std::exp(-3.0 / time_constant));
   const auto error = [&](int steps) { return std::fabs(creep(law, 1.0, 3.0 / steps, steps) - exact); };
@@ -73,5 +75,6 @@ TEST_CASE("inertia-free steps refuse bonds without a rest length, and no time") 
     return {};
   };
   CHECK(complaint(0.0, rest) == "lattice_spring::InertiaFreeStep: dt must be finite and > 0 s, got 0");
-  CHECK(complaint(1.0, -1.0) == "lattice_spring::InertiaFreeStep: rest_length (measure_rest_lengths first) must be finite and >= 0 m, got -1");
+  CHECK(complaint(1.0, -1.0) ==
+        "lattice_spring::InertiaFreeStep: rest_length (measure_rest_lengths first) must be finite and >= 0 m, got -1");
 }

@@ -1,13 +1,13 @@
 // Planes in a scene: the bound of the step, the force on a plate, contact.
 #include <cmath>
 #include <string>
+#include "support/threads.hpp"
 #include <doctest/doctest.h>
 #include <dmp/bond.hpp>
 #include <dmp/core/simulation_error.hpp>
 #include <dmp/forcing.hpp>
 #include <dmp/integrator.hpp>
 #include <dmp/simulation.hpp>
-#include "support/threads.hpp"
 
 using namespace dmp;
 using namespace dmp::simulation;
@@ -25,7 +25,8 @@ constexpr double mass = 0.5, strength = 200.0, weight = 2.0;  // [kg], [N/m^2], 
 template <class Integrator>
 auto bead_on_plane(double above, forcing::Ramp motion = {.speed = 0.0}) {
   const forcing::Constant<1> gravity{.uniform_acceleration = {{-weight / mass}}};
-  return scene<Integrator>(Box<1>::unbounded(), group<Beads>("beads", Mobile{}, Points<1>{{Vector<1>(above - std::sqrt(weight / strength))}}, mass),
+  return scene<Integrator>(Box<1>::unbounded(),
+                           group<Beads>("beads", Mobile{}, Points<1>{{Vector<1>(above - std::sqrt(weight / strength))}}, mass),
                            forced_by<Beads>(gravity, Plane<1>{.normal = {{1.0}}, .position = 0.0, .strength = strength, .motion = motion}));
 }
 const double largest_stable = 2.0 / std::sqrt(2.0 * strength * std::sqrt(weight / strength) / mass);  // 2/omega of small oscillations
@@ -61,7 +62,8 @@ TEST_CASE("a step beyond the bound of a plane is not stable: the bound is not ne
   CHECK(largest > 1e-3);
 }
 
-TEST_CASE("a plane that moves in on a bead stops the run when its stiffness no longer allows the given step, and shortens an automatic one") {
+TEST_CASE(
+    "a plane that moves in on a bead stops the run when its stiffness no longer allows the given step, and shortens an automatic one") {
   const forcing::Ramp blow{.speed = 3.0};
   auto given = bead_on_plane<Leapfrog>(0.0, blow);
   CHECK_THROWS_WITH_AS(given.run({.until = 10.0, .time_step = 0.95 * largest_stable, .check_every = 1}),

@@ -3,8 +3,9 @@
 #include <random>
 #include <string>
 #include <vector>
-#include <doctest/doctest.h>
+#include "support/threads.hpp"
 #include <Eigen/Cholesky>
+#include <doctest/doctest.h>
 #include <dmp/bond.hpp>
 #include <dmp/core/simulation_error.hpp>
 #include <dmp/forcing.hpp>
@@ -12,7 +13,6 @@
 #include <dmp/lattice_spring.hpp>
 #include <dmp/potential.hpp>
 #include <dmp/simulation.hpp>
-#include "support/threads.hpp"
 
 using namespace dmp;
 using namespace dmp::simulation;
@@ -46,11 +46,11 @@ constexpr double mass = 0.02, k = 30.0, gravity = 9.81;
 TEST_CASE("a chain that hangs from a frozen bead has the exact sag of a chain of springs, with any integrator") {
   const auto check = [&]<class Integrator>(Integrator) {
     constexpr int count = 20;
-    auto hanging = scene<Integrator>(Box<1>::unbounded(), group<Ends>("hook", Frozen<1>{}, Points<1>{{Vector<1>(-0.1)}}, mass),
-                                     group<Beads>("beads", Mobile{}, row(count), mass),
-                                     bonds<Beads, Beads>(Harmonic{.stiffness = k}, chain(count)),
-                                     bonds<Ends, Beads>(Harmonic{.stiffness = k}, {{0, 0}}),
-                                     forced_by<Beads>(forcing::Constant<1>{.uniform_acceleration = {{gravity}}}));
+    auto hanging =
+        scene<Integrator>(Box<1>::unbounded(), group<Ends>("hook", Frozen<1>{}, Points<1>{{Vector<1>(-0.1)}}, mass),
+                          group<Beads>("beads", Mobile{}, row(count), mass), bonds<Beads, Beads>(Harmonic{.stiffness = k}, chain(count)),
+                          bonds<Ends, Beads>(Harmonic{.stiffness = k}, {{0, 0}}),
+                          forced_by<Beads>(forcing::Constant<1>{.uniform_acceleration = {{gravity}}}));
     const auto report = relax(hanging, {.force_tolerance = 1e-11});
     CHECK(report.largest_force <= 1e-11);
     CHECK(report.evaluations < 2000);
@@ -109,9 +109,10 @@ TEST_CASE("a net between frozen and driven beads relaxes to the solution of its 
     else if (a == 2 && b == 1) to_top.push_back({j, i});
   }
   const Harmonic spring{.stiffness = 2.0};
-  auto scene = simulation::scene<Leapfrog>(Box<3>::unbounded(), group<Ends>("bottom", Frozen<3>{}, bottom, 1.0), group<Beads>("middle", Mobile{}, middle, 1.0),
-                                           group<Others>("top", Driven<Turning>{}, top, 1.0), bonds<Beads, Beads>(spring, of_middle),
-                                           bonds<Beads, Ends>(spring, to_bottom), bonds<Beads, Others>(spring, to_top));
+  auto scene = simulation::scene<Leapfrog>(Box<3>::unbounded(), group<Ends>("bottom", Frozen<3>{}, bottom, 1.0),
+                                           group<Beads>("middle", Mobile{}, middle, 1.0), group<Others>("top", Driven<Turning>{}, top, 1.0),
+                                           bonds<Beads, Beads>(spring, of_middle), bonds<Beads, Ends>(spring, to_bottom),
+                                           bonds<Beads, Others>(spring, to_top));
   constexpr double time = 1e-4;  // turned by 1e-6 rad
   relax(scene, {.force_tolerance = 2e-13, .time = time});
 
@@ -134,13 +135,15 @@ TEST_CASE("a net between frozen and driven beads relaxes to the solution of its 
   for (const Bond& bond : to_top) {
     const Eigen::Matrix3d one = add(middle.positions[bond.i], top.positions[bond.j]);
     stiffness(block(bond.i), block(bond.i)) += one;
-    force.segment<3>(3 * static_cast<Eigen::Index>(bond.i)) += one * (Turning::position(top.positions[bond.j], time) - top.positions[bond.j]);
+    force.segment<3>(3 * static_cast<Eigen::Index>(bond.i)) +=
+        one * (Turning::position(top.positions[bond.j], time) - top.positions[bond.j]);
   }
   const Eigen::VectorXd exact = stiffness.ldlt().solve(force);
   double difference = 0.0;
   for (Eigen::Index i = 0; i < n; ++i)
     difference = std::fmax(difference, (scene.group<Beads>().positions()[static_cast<std::size_t>(i)] -
-                                        middle.positions[static_cast<std::size_t>(i)] - exact.segment<3>(3 * i)).norm());
+                                        middle.positions[static_cast<std::size_t>(i)] - exact.segment<3>(3 * i))
+                                           .norm());
   CHECK(exact.norm() > 1e-5);
   CHECK(difference < 1e-5 * exact.lpNorm<Eigen::Infinity>());  // the rest: strain squared
 }
@@ -149,16 +152,19 @@ namespace {
 
 /// A random network, squeezed to 0.8 of its height between two planes, in two groups that repel each other a little as well.
 auto squeezed(double strength = 100.0) {
-  auto body = lattice_spring::network(
-      lattice_spring::random_points<3>({.least_distance = 0.14, .most_failures = 2000}, geometry::Cuboid<3>{.lower = {0.0, 0.0, 0.0}, .upper = {2.0, 2.0, 2.0}}), 0.14 * 1.924);
+  auto body =
+      lattice_spring::network(lattice_spring::random_points<3>({.least_distance = 0.14, .most_failures = 2000},
+                                                               geometry::Cuboid<3>{.lower = {0.0, 0.0, 0.0}, .upper = {2.0, 2.0, 2.0}}),
+                              0.14 * 1.924);
   Points<3> dust;
   for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 5; ++j) dust.positions.emplace_back(0.1 + 0.45 * i, 0.1 + 0.45 * j, 2.2);
   const potential::LennardJones sticky{.energy_scale = 1e-3, .diameter = 0.2, .cutoff = 0.5};
-  return scene<Leapfrog>(Box<3>::unbounded(), group<Beads>("beads", Mobile{}, body.points, 1.0), group<Others>("dust", Mobile{}, dust, 0.3),
-                         interaction<Beads, Others>(sticky), interaction<Others, Others>(sticky), bonds<Beads, Beads>(Harmonic{.stiffness = 5.0}, body.bonds),
-                         forced_by<Beads, Others>(Plane<3>{.normal = {{0.0, 0.0, 1.0}}, .position = 0.0, .strength = strength, .motion = {.speed = 0.2}},
-                                                  Plane<3>{.normal = {{0.0, 0.0, -1.0}}, .position = -2.25, .strength = strength, .motion = {.speed = 0.2}}));
+  return scene<Leapfrog>(
+      Box<3>::unbounded(), group<Beads>("beads", Mobile{}, body.points, 1.0), group<Others>("dust", Mobile{}, dust, 0.3),
+      interaction<Beads, Others>(sticky), interaction<Others, Others>(sticky), bonds<Beads, Beads>(Harmonic{.stiffness = 5.0}, body.bonds),
+      forced_by<Beads, Others>(Plane<3>{.normal = {{0.0, 0.0, 1.0}}, .position = 0.0, .strength = strength, .motion = {.speed = 0.2}},
+                               Plane<3>{.normal = {{0.0, 0.0, -1.0}}, .position = -2.25, .strength = strength, .motion = {.speed = 0.2}}));
 }
 
 }  // namespace
@@ -199,7 +205,8 @@ TEST_CASE("relax: the energy goes down, and a body that is at rest stays as it i
   const auto energy = [&] {
     double sum = 0.0;
     for (const Bond& bond : body.bonds) {
-      const double stretch = (scene.group<Beads>().positions()[bond.i] - scene.group<Beads>().positions()[bond.j]).norm() - bond.rest_length;
+      const double stretch =
+          (scene.group<Beads>().positions()[bond.i] - scene.group<Beads>().positions()[bond.j]).norm() - bond.rest_length;
       sum += 0.5 * stretch * stretch;
     }
     return sum;
@@ -249,7 +256,8 @@ TEST_CASE("relax without_rotation: a leaning brick between two planes is squeeze
     double turned = 0.0, arms = 0.0;
     auto centre = start[0], before = start[0];
     centre.setZero(), before.setZero();
-    for (std::size_t i = 0; i < start.size(); ++i) centre += x[i] / static_cast<double>(start.size()), before += start[i] / static_cast<double>(start.size());
+    for (std::size_t i = 0; i < start.size(); ++i)
+      centre += x[i] / static_cast<double>(start.size()), before += start[i] / static_cast<double>(start.size());
     for (std::size_t i = 0; i < start.size(); ++i) {
       const auto a = (start[i] - before).eval(), b = (x[i] - centre).eval();
       turned += a[0] * b[1] - a[1] * b[0];
@@ -268,10 +276,15 @@ TEST_CASE("relax without_rotation: a leaning brick between two planes is squeeze
 }
 
 TEST_CASE("relax says what is wrong: no convergence, nothing that holds, a tolerance of nothing") {
-  auto hanging = scene<Leapfrog>(Box<1>::unbounded(), group<Beads>("beads", Mobile{}, row(20), mass), bonds<Beads, Beads>(Harmonic{.stiffness = k}, chain(20)),
-                                 forced_by<Beads>(Plane<1>{.normal = {{1.0}}, .position = 0.5, .strength = 1.0}, Plane<1>{.normal = {{-1.0}}, .position = -0.6, .strength = 1.0}));
-  CHECK_THROWS_WITH_AS(relax(hanging, {.force_tolerance = 1e-12, .most_evaluations = 10}), doctest::Contains("relax: not at rest after 10 evaluations"), SimulationError);
+  auto hanging = scene<Leapfrog>(Box<1>::unbounded(), group<Beads>("beads", Mobile{}, row(20), mass),
+                                 bonds<Beads, Beads>(Harmonic{.stiffness = k}, chain(20)),
+                                 forced_by<Beads>(Plane<1>{.normal = {{1.0}}, .position = 0.5, .strength = 1.0},
+                                                  Plane<1>{.normal = {{-1.0}}, .position = -0.6, .strength = 1.0}));
+  CHECK_THROWS_WITH_AS(relax(hanging, {.force_tolerance = 1e-12, .most_evaluations = 10}),
+                       doctest::Contains("relax: not at rest after 10 evaluations"), SimulationError);
   CHECK_THROWS_WITH_AS(relax(hanging, {.force_tolerance = 0.0}), "relax: force_tolerance must be finite and > 0 N, got 0", ParameterError);
-  auto falling = scene<Leapfrog>(Box<1>::unbounded(), group<Beads>("beads", Mobile{}, row(2), mass), forced_by<Beads>(forcing::Constant<1>{.uniform_acceleration = {{1.0}}}));
-  CHECK_THROWS_WITH_AS(relax(falling, {.force_tolerance = 1e-9}), "relax: no law of this scene bounds the time step, so nothing comes to rest", ParameterError);
+  auto falling = scene<Leapfrog>(Box<1>::unbounded(), group<Beads>("beads", Mobile{}, row(2), mass),
+                                 forced_by<Beads>(forcing::Constant<1>{.uniform_acceleration = {{1.0}}}));
+  CHECK_THROWS_WITH_AS(relax(falling, {.force_tolerance = 1e-9}),
+                       "relax: no law of this scene bounds the time step, so nothing comes to rest", ParameterError);
 }

@@ -42,7 +42,8 @@ class InertiaFreeStep {
     if (!(stiffness > 0.0)) return springs;
     for (std::size_t b = 0; b < springs.size(); ++b) {
       springs[b].rest_length = (stiffness_ * bonds_[b].rest_length + gain_ * before_[b] - decay_ * branch_[b]) / stiffness;
-      require_not_negative("lattice_spring::InertiaFreeStep: rest length of a bond, strained too much for these steps,", springs[b].rest_length, "m");
+      require_not_negative("lattice_spring::InertiaFreeStep: rest length of a bond, strained too much for these steps,",
+                           springs[b].rest_length, "m");
     }
     return springs;
   }

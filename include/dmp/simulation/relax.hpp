@@ -17,10 +17,10 @@
 namespace dmp::simulation {
 
 struct RelaxOptions {
-  Required<double> force_tolerance;            ///< at rest when no particle feels more [N], > 0
-  std::uint64_t most_evaluations = 1000000;    ///< of the forces, before it gives up
-  double time = -1.0;                          ///< [s] as forcings and driven groups see it; negative: the time of the scene
-  bool without_rotation = false;  ///< all mobile particles together do not turn: for a free body that would roll under its load
+  Required<double> force_tolerance;          ///< at rest when no particle feels more [N], > 0
+  std::uint64_t most_evaluations = 1000000;  ///< of the forces, before it gives up
+  double time = -1.0;                        ///< [s] as forcings and driven groups see it; negative: the time of the scene
+  bool without_rotation = false;             ///< all mobile particles together do not turn: for a free body that would roll under its load
 };
 struct RelaxReport {
   std::uint64_t evaluations = 0;  ///< of the forces
@@ -116,14 +116,16 @@ struct Rotation {
 /// E. Bitzek, P. Koskinen, F. Gaehler, M. Moseler, P. Gumbsch, Phys. Rev. Lett. 97 (2006) 170201, doi:10.1103/PhysRevLett.97.170201.
 template <int Dim, class Integrator, class Precision, class... Item>
 RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const RelaxOptions& options) {
-  static_assert(!Engine<Dim, Integrator, Precision, Item...>::has_substeps, "dmp: relax: sub-stepped bonds have no use where nothing moves in time; make them bonds<...>");
+  static_assert(!Engine<Dim, Integrator, Precision, Item...>::has_substeps,
+                "dmp: relax: sub-stepped bonds have no use where nothing moves in time; make them bonds<...>");
   static_assert(!([] {
     if constexpr (is_bonds<Item>) return bond::HasMemory<decltype(Item::law)>;
     return false;
-  }() || ...), "dmp: relax: the tension of a bond with memory depends on time, so there is no energy to minimise");
+  }() || ...),
+                "dmp: relax: the tension of a bond with memory depends on time, so there is no energy to minimise");
   require_positive("relax: force_tolerance", options.force_tolerance, "N");
   constexpr double first_mixing = 0.1, mixing_decay = 0.99, growth = 1.1, shrinkage = 0.5, safety = 0.9;
-  constexpr int patience = 5;             // steps downhill before the step grows
+  constexpr int patience = 5;               // steps downhill before the step grows
   constexpr std::uint64_t look_every = 20;  // evaluations after which bounds of the step are looked at again
   auto& engine = scene.engine();
   (void)scene.step_limit();  // checks the scene, and evaluates it
