@@ -135,8 +135,8 @@ TEST_CASE("KV-2: recovery when the force ends at 6 s is creep minus creep 6 s la
     CAPTURE(damping);
     CHECK(creep_error<ExtrapolatedVerlet, Frozen<1>>(damping, {.off = 6.0}, 12.0, 1e-3) <= 1e-6);
     CHECK(creep_error<ExtrapolatedVerlet, Mobile>(damping, {.off = 6.0}, 12.0, 1e-3) <= 1e-6);
-    CHECK(creep_error<Leapfrog, Frozen<1>>(damping, {.off = 6.0}, 12.0, 1e-3) <= 4e-4);  // two creeps: twice 3e-4 at most
-    CHECK(creep_error<Leapfrog, Mobile>(damping, {.off = 6.0}, 12.0, 1e-3) <= 4e-4);
+    CHECK(creep_error<Leapfrog, Frozen<1>>(damping, {.off = 6.0}, 12.0, 1e-3) <= 3e-4);  // KV-1's bound
+    CHECK(creep_error<Leapfrog, Mobile>(damping, {.off = 6.0}, 12.0, 1e-3) <= 4e-4);  // two creeps, each within 3e-4
   }
 }
 

@@ -202,6 +202,17 @@ TEST_CASE("bonds in packs pull as in a plain loop over the bonds: springs and da
 }
 TEST_CASE("bonds in packs pull as in a plain loop over the bonds: a law of one's own") { check_in_all_dimensions(Stiffening{}); }
 
+TEST_CASE("KV-4: spring and dashpot pull the two ends of a bond alike, exactly, and along it") {
+  using Moving = particles::Records<3, Fields<field::Position, field::Velocity>>;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const auto group = at_random<3>(5, seed);
+    const auto forces = in_packs<3, false, Moving, Moving>(group, group, true, false, {{1, 2, 0.1}}, Blocks(5), bond::KelvinVoigt{.stiffness = 1.0, .damping = 0.7});
+    CHECK(forces[1] == -forces[2]);
+    CHECK(forces[1].norm() > 0.0);
+    const Vector<3> apart = group.positions[1] - group.positions[2], along = apart / apart.norm();
+    CHECK((forces[1] - forces[1].dot(along) * along).norm() <= 1e-12 * forces[1].norm());  // no torque
+  }
+}
 TEST_CASE("a particle without bonds feels nothing, exactly") {
   const auto group = at_random<3>(5, 1);
   const auto forces = in_packs<3, false, particles::Records<3, Fields<field::Position>>, particles::Records<3, Fields<field::Position>>>(
