@@ -61,7 +61,7 @@ example::ProfileError flow(Drive drive, int rows, const io::OutputFolder& folder
   // The exact profile at a tenth of the diffusion time and at the end; the profile of the particles in a table.
   const std::string name = (drive == Drive::plate ? "couette_" : "poiseuille_") + std::to_string(rows);
   const std::string label = std::string(drive == Drive::plate ? "Couette" : "Poiseuille") + ", N = " + std::to_string(rows);
-  const double end = 7.0 * diffusion_time, dt = 0.03 * square(channel.support_radius()) * density / viscosity_;
+  const double end = 7.0 * diffusion_time, dt = example::step_of_case<2>(0.03 * square(channel.support_radius()) * density / viscosity_);
   const auto transient = scene.run({.until = diffusion_time, .time_step = dt});
   const auto error = [&] {
     return example::profile_error(scene.group<Water>(), [&](double y) { return exact_velocity(drive, y, scene.time()); });

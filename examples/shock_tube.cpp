@@ -137,7 +137,8 @@ void tube(double high_pressure, int columns, const io::OutputFolder& folder, exa
   };
   const double energy_before = energy();
   const double sound = water.sound_speed(density, water.specific_energy(high_pressure, density));
-  const auto report = scene.run({.until = end_time, .time_step = 0.2 * support_radius / (sound + exact.velocity())});
+  const auto report =
+      scene.run({.until = end_time, .time_step = example::step_of_case<2>(0.2 * support_radius / (sound + exact.velocity()))});
 
   const double t = scene.time();
   std::vector<std::pair<double, double>> profile;

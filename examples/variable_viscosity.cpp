@@ -143,7 +143,8 @@ void heated_channel(double ratio, int rows, const io::OutputFolder& folder, exam
 
   const double mean = 0.5 * (coldest + hottest);
   const double end = 10.5 * density * gap * gap / (std::numbers::pi * std::numbers::pi * mean);
-  const auto report = scene.run({.until = end, .time_step = 0.03 * square(channel.support_radius()) * density / coldest});
+  const auto report =
+      scene.run({.until = end, .time_step = example::step_of_case<2>(0.03 * square(channel.support_radius()) * density / coldest)});
 
   double viscosity_error = 0.0;
   for (std::size_t i = 0; i < water.size(); ++i) {
