@@ -83,7 +83,9 @@ TEST_CASE("section 6: the bound holds for lattices and networks, by the eigenval
 }
 
 TEST_CASE("section 6: two beads, b = 0.2 N s/m on 1e-5 kg each, allow 5e-5 s; springs alone 2/omega; nothing, any step") {
-  Body<3> pair{.points = {.positions = {{0, 0, 0}, {1, 0, 0}}}, .bonds = {{0, 1}}};
+  Body<3> pair;
+  pair.points.positions = {{0, 0, 0}, {1, 0, 0}};
+  pair.bonds = {{0, 1}};
   CHECK(stable_time_step(pair, 1e-5, 0.0, 0.2) == doctest::Approx(5e-5).epsilon(1e-14));
   CHECK(stable_time_step(pair, 1e-5, 0.2) == doctest::Approx(2.0 / std::sqrt(2.0 * 0.2 / 1e-5)).epsilon(1e-14));
   CHECK(stable_time_step(pair, 1e-5, 0.0) == std::numeric_limits<double>::infinity());

@@ -427,7 +427,9 @@ TEST_CASE("statics: what cannot be solved is told by name and value") {
   CHECK(complaint([&] { return springs_for(block, ElasticConstants<3>::from_young(1.0, 0.5)); }).find("must be > -1 and < 0.5, got 0.5") !=
         std::string::npos);
   CHECK(complaint([&] { return springs_for(block, ElasticConstants<3>::from_young(1.0, -1.0)); }).find("got -1") != std::string::npos);
-  const Body<3> one_place{.points = {.positions = {{0, 0, 0}, {0, 0, 0}}}, .bonds = {{0, 1}}};
+  Body<3> one_place;
+  one_place.points.positions = {{0, 0, 0}, {0, 0, 0}};
+  one_place.bonds = {{0, 1}};
   CHECK(complaint([&] { return SmallStrain<3>(one_place, {.stiffness = 1.0}); }) ==
         "lattice_spring::SmallStrain: the ends of a bond must not coincide, got bond (0, 1)");
   CHECK(complaint([&] { return strained.tensions(std::span(start).first(5)); }) ==
