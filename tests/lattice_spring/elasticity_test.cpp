@@ -12,17 +12,9 @@
 using namespace dmp::lattice_spring;
 using dmp::Vector;
 using test::relative_error;
+using test::complaint;
 
 namespace {
-
-std::string complaint(const auto& make) {
-  try {
-    (void)make();
-  } catch (const dmp::ParameterError& error) {
-    return error.what();
-  }
-  return {};
-}
 
 /// A number as the sheet prints it, with six decimals.
 bool printed_as(double value, double printed) { return std::fabs(value - printed) <= 0.5000001e-6; }

@@ -11,20 +11,12 @@
 
 using namespace dmp::lattice_spring;
 using test::relative_error;
+using test::complaint;
 
 namespace {
 
 const double l = 12.5e-6;                                                                             // [m], edge of the lattice of the sheet's sphere
 const Hertz sphere{.radius = 32 * l, .youngs_modulus = 40e6, .poisson_ratio = 0.25};  // sheet 01
-
-std::string complaint(const auto& make) {
-  try {
-    (void)make();
-  } catch (const dmp::ParameterError& error) {
-    return error.what();
-  }
-  return {};
-}
 
 }  // namespace
 

@@ -14,6 +14,8 @@ using namespace dmp::lattice_spring;
 using dmp::Vector;
 using dmp::geometry::Ball, dmp::geometry::Cuboid;
 
+using test::complaint;
+
 namespace {
 
 const double l = 12.5e-6;  // [m], of the sphere of sheet 01
@@ -65,15 +67,6 @@ void check_sphere(const Count& count) {
   CHECK(std::round(100.0 * mean_coordination(body)) == std::round(100.0 * count.coordination));
   CHECK(body.points.volume == doctest::Approx(l * l * l).epsilon(1e-14));
   CHECK(body.volume == doctest::Approx(static_cast<double>(count.beads) * l * l * l).epsilon(1e-14));
-}
-
-std::string complaint(const auto& make) {
-  try {
-    (void)make();
-  } catch (const dmp::ParameterError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace

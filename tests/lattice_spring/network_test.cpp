@@ -13,6 +13,7 @@ using namespace dmp::lattice_spring;
 using dmp::Vector;
 using dmp::geometry::Ball, dmp::geometry::Cuboid, dmp::geometry::Points;
 using test::relative_error;
+using test::complaint;
 
 namespace {
 
@@ -35,15 +36,6 @@ double mean_length(const Body<3>& body) {
   double sum = 0.0;
   for (const auto& bond : body.bonds) sum += (body.points.positions[bond.i] - body.points.positions[bond.j]).norm();
   return sum / static_cast<double>(body.bonds.size());
-}
-
-std::string complaint(const auto& make) {
-  try {
-    (void)make();
-  } catch (const dmp::ParameterError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ using dmp::Vector;
 using dmp::geometry::Ball, dmp::geometry::Box, dmp::geometry::Cuboid, dmp::geometry::Points;
 using dmp::neighbours::Bond;
 using test::relative_error;
+using test::complaint;
 
 namespace {
 
@@ -43,15 +44,6 @@ double largest_eigenvalue(const Body<3>& body) {
     stiffness.block<3, 3>(j, i) -= block;
   }
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues()[size - 1];
-}
-
-std::string complaint(const auto& make) {
-  try {
-    (void)make();
-  } catch (const dmp::ParameterError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace

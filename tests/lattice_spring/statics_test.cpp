@@ -19,6 +19,7 @@ using namespace dmp::lattice_spring;
 using dmp::Vector;
 using dmp::geometry::Cuboid, dmp::geometry::Points;
 using test::relative_error;
+using test::complaint;
 
 namespace {
 
@@ -112,16 +113,6 @@ struct Bar {
 };
 
 constexpr std::array ratios{-0.5, 0.0, 0.1, 0.25, 0.4, 0.49};  // of B3
-
-template <class Error = dmp::ParameterError>
-std::string complaint(const auto& make) {
-  try {
-    (void)make();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
 
 }  // namespace
 

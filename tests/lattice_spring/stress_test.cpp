@@ -19,6 +19,7 @@ using dmp::Vector;
 using dmp::geometry::Box, dmp::geometry::Cuboid;
 using dmp::neighbours::Bond;
 using test::relative_error;
+using test::complaint;
 
 namespace {
 
@@ -43,15 +44,6 @@ const Tensor<3> small = (Tensor<3>{} << 3e-7, 1e-7, -2e-7, 0.5e-7, -1e-7, 1.5e-7
 Tensor<3> isotropic(double mu, const Tensor<3>& gradient) {
   const Tensor<3> e = 0.5 * (gradient + gradient.transpose());
   return mu * e.trace() * Tensor<3>::Identity() + 2.0 * mu * e;
-}
-
-std::string complaint(const auto& make) {
-  try {
-    (void)make();
-  } catch (const dmp::ParameterError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ using namespace dmp::lattice_spring;
 using dmp::Vector;
 using dmp::geometry::Ball, dmp::geometry::Cuboid, dmp::geometry::Points;
 using test::relative_error;
+using test::complaint;
 
 namespace {
 
@@ -28,15 +29,6 @@ struct Cube {
 
 bool same_weights(const Body<3>& a, const Body<3>& b) {
   return std::equal(a.bonds.begin(), a.bonds.end(), b.bonds.begin(), [](const auto& p, const auto& q) { return p.weight == q.weight; });
-}
-
-std::string complaint(const auto& make) {
-  try {
-    (void)make();
-  } catch (const dmp::ParameterError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <random>
 #include <string>
 #include <vector>
 #include <doctest/doctest.h>
@@ -11,6 +10,7 @@
 #include <dmp/forcing.hpp>
 #include <dmp/integrator.hpp>
 #include <dmp/simulation.hpp>
+#include "support/random.hpp"
 
 using namespace dmp;
 using namespace dmp::simulation;
@@ -134,15 +134,6 @@ struct Net {};
 struct Other {};
 struct Plate {};
 
-class Random {
- public:
-  Vector<3> vector(double size) { return size * Vector<3>(number(), number(), number()); }
-
- private:
-  double number() { return static_cast<double>(generator_()) / 2147483648.0 - 1.0; }
-  std::mt19937 generator_{7};
-};
-
 constexpr StandardLinearSolid solid{.stiffness = 50.0, .branch_stiffness = 100.0, .branch_damping = 10.0};
 constexpr std::uint32_t side = 22;
 
@@ -188,7 +179,7 @@ auto lattice() {
                                   for (Bond& bond : to_plate) std::swap(bond.i, bond.j);
                                   return to_plate;
                                 }()));
-  Random random;
+  test::RandomVectors random;
   result.template group<Net>().template set<field::Velocity>([&](const auto&) { return Vector<3>(random.vector(0.2) + Vector<3>(0.5, 0.0, -0.3)); });
   result.template group<Other>().template set<field::Velocity>([&](const auto&) { return random.vector(0.2); });
   return result;
@@ -309,7 +300,7 @@ TEST_CASE("memories step once per step of the scene: evaluating the forces betwe
 }
 
 TEST_CASE("bonds with memory in packs do what a plain loop over the bonds does") {
-  Random random;
+  test::RandomVectors random;
   std::vector<Vector<3>> x, v;
   std::vector<Bond> list;
   for (std::uint32_t k = 0; k < 30; ++k) {
@@ -354,7 +345,7 @@ TEST_CASE("bonds with memory in packs do what a plain loop over the bonds does")
 }
 
 TEST_CASE("a net of bonds with memory: momentum and angular momentum are kept, energy is given off and never gained; rigid motion is free") {
-  Random random;
+  test::RandomVectors random;
   std::vector<Vector<3>> beads;
   std::vector<Bond> list;
   for (std::uint32_t k = 0; k < 12; ++k) {

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <string>
 #include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
@@ -11,6 +10,7 @@
 #include <dmp/forcing.hpp>
 #include <dmp/integrator.hpp>
 #include <dmp/simulation.hpp>
+#include "support/random.hpp"
 
 using namespace dmp;
 using namespace dmp::simulation;
@@ -228,15 +228,6 @@ Invariants invariants(const auto& scene, const std::vector<Bond>& list, const Mo
   return result;
 }
 
-class Random {
- public:
-  Vector<3> vector(double size) { return size * Vector<3>(number(), number(), number()); }
-
- private:
-  double number() { return static_cast<double>(generator_()) / 2147483648.0 - 1.0; }
-  std::mt19937 generator_{7};
-};
-
 /// A ring of beads through the periodic face, a metre apart, every second one displaced: the fastest of its motions, of frequency
 /// sqrt(4 k/m) and damping rate 4 c/m exactly.
 auto zigzag(const Modest& law, double displacement = 1e-3) {
@@ -258,7 +249,7 @@ double largest_displacement(const auto& scene) {
 }  // namespace
 
 TEST_CASE("KV-4: a net of springs and dashpots at random, in a moving frame: momentum and angular momentum are kept, energy only falls") {
-  Random random;
+  test::RandomVectors random;
   Beads beads;
   std::vector<Bond> list;
   for (std::uint32_t k = 0; k < 12; ++k) {
@@ -475,7 +466,7 @@ TEST_CASE("1, 2, 3 and 4 threads give the same bits for 17576 beads in four bloc
   for (const int threads : {1, 2, 3, 4}) {
     use_threads(threads);
     auto block = net(beads, list, {{.stiffness = 50.0, .damping = 0.1}}, box);
-    Random random;
+    test::RandomVectors random;
     block.group<Net>().set<field::Velocity>([&](const auto&) { return random.vector(0.2); });
     block.run({.until = 0.2, .time_step = 0.01});
     CHECK(block.group<Net>().blocks.size() == 4);

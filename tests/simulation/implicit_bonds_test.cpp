@@ -1,7 +1,6 @@
 // Kelvin-Voigt bonds whose dashpots are solved for: any stiffness of them, second order, nothing created.
 #include <cmath>
 #include <filesystem>
-#include <random>
 #include <string>
 #include <vector>
 #include <doctest/doctest.h>
@@ -11,6 +10,7 @@
 #include <dmp/forcing.hpp>
 #include <dmp/integrator.hpp>
 #include <dmp/simulation.hpp>
+#include "support/random.hpp"
 
 using namespace dmp;
 using namespace dmp::simulation;
@@ -106,19 +106,10 @@ struct Net {};
 struct Other {};
 struct Plate {};
 
-class Random {
- public:
-  Vector<3> vector(double size) { return size * Vector<3>(number(), number(), number()); }
-
- private:
-  double number() { return static_cast<double>(generator_()) / 2147483648.0 - 1.0; }
-  std::mt19937 generator_{7};
-};
-
 /// A tangle of two groups in open space or across the faces of a box; `make_bonds` says how they are bonded.
 template <class MakeBonds>
 auto tangle(const Box<3>& box, double damping, const MakeBonds& make_bonds, const Vector<3>& shift = Vector<3>::Zero()) {
-  Random random;
+  test::RandomVectors random;
   Points<3> beads, others;
   std::vector<Bond> within, between;
   for (std::uint32_t k = 0; k < 14; ++k) {
@@ -259,7 +250,7 @@ auto lattice() {
   const KelvinVoigt law{.stiffness = 50.0, .damping = 100.0};
   auto result = scene<Leapfrog>(Box<3>{.lower = {0.0, 0.0, 0.0}, .upper = {length, length, length}, .periodic = {true, true, false}}, group<Net>("net", Mobile{}, beads, 1.0),
                                 group<Plate>("plate", Driven<Tow>{}, plate, 1.0), implicit_bonds<Net, Net>(law, list), implicit_bonds<Plate, Net>(law, to_plate));
-  Random random;
+  test::RandomVectors random;
   result.template group<Net>().template set<field::Velocity>([&](const auto&) { return Vector<3>(random.vector(0.02) + Vector<3>(1.0, 0.0, 0.0)); });
   return result;
 }

@@ -17,15 +17,20 @@ namespace test {
   return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
 }
 
-/// Text of the ParameterError that validate(law) throws; empty if it accepts the law.
-template <class Law>
-[[nodiscard]] std::string complaint_about(const Law& law) {
+/// Text of the Error that f() throws; empty if it throws none.
+template <class Error = dmp::ParameterError>
+[[nodiscard]] std::string complaint(const auto& f) {
   try {
-    validate(law);
-  } catch (const dmp::ParameterError& error) {
+    static_cast<void>(f());
+  } catch (const Error& error) {
     return error.what();
   }
   return {};
+}
+/// The same of validate(law).
+template <class Law>
+[[nodiscard]] std::string complaint_about(const Law& law) {
+  return complaint([&law] { validate(law); });
 }
 
 /// Parameters are public, copies are copies of bytes: what lets a law live in a register and be set by name.

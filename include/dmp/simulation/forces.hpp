@@ -1,5 +1,4 @@
 #pragma once
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,19 +7,19 @@
 #include <utility>
 #include <vector>
 #include <dmp/integrator/concept.hpp>
-#include <dmp/simulation/lists.hpp>
+#include <dmp/simulation/packing.hpp>
 #include <dmp/sweep/bonds.hpp>
 #include <dmp/sweep/gather.hpp>
 
 namespace dmp::simulation {
 
-/// What a model's laws say of its present state: records of all particles, then sums over pairs and bonds, accelerations and rates.
+/// What a model's laws say of its present state: sums over pairs and bonds, accelerations and rates.
 template <int Dim, class Integrator, class Precision, class... Item>
-class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
-  using Base = Lists<Dim, Integrator::keeps_rates, Precision, Item...>;
+class Forces : public Packing<Dim, Integrator, Precision, Item...> {
+  using Base = Packing<Dim, Integrator, Precision, Item...>;
 
  public:
-  using Base::Base, Base::group, Base::for_each_group, Base::for_each_item;
+  using Base::Base, Base::group, Base::for_each_group, Base::for_each_item, Base::refresh_frozen;
 
   /// Fresh lists and ghosts; every particle may have got another row. The records of groups that evolve must be packed next. With `sort`, a
   /// run that goes on from here and one that restarts here from a checkpoint do the same arithmetic.
@@ -42,69 +41,13 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     refresh_frozen();
     for_each_group([&](auto& g) {
       if constexpr (LayoutOf<decltype(g)>::has_pairs) {
-        with_materials(g, [&](const auto&... law) { pack_one(g, 0, 0.0, law...); });
+        this->with_materials(g, [&](const auto&... law) { this->pack_one(g, 0, 0.0, law...); });
         auto far_away = g.records.load(0);
         for (double& x : far_away.position.component) x = 1e30;
         for (std::size_t row = g.size(); row < g.first_ghost(); ++row) g.records.store(row, far_away);
       }
     });
   }
-  /// Records of groups that do not evolve, which steps leave alone: for what the user has changed between runs.
-  void refresh_frozen() {
-    for_each_group([&](auto& g) {
-      if constexpr (LayoutOf<decltype(g)>::has_records && !evolves<decltype(g)>) pack(g, 0.0);
-    });
-  }
-
-  /// Calls function(laws...) with the material laws of a group; what was chosen at run time is looked up here, once.
-  template <class G, class Function>
-  void with_materials(const G&, Function&& function) const {
-    const auto laws = std::apply([](const auto&... active) { return std::tuple_cat(laws_for<typename G::Tag>(active.item)...); }, this->items());
-    std::apply([&](const auto&... law) { sweep::with_chosen(function, law...); }, laws);
-  }
-  /// Particle i as the material laws complete it: state, pressure term, viscosity, ...; `dt` [s] is the step under way, 0 between steps.
-  template <class G, class... Law>
-  [[nodiscard]] auto prepared_by(const G& g, std::size_t i, double dt, const Law&... law) const noexcept {
-    using C = LayoutOf<decltype(g)>;
-    View<Dim, double, typename C::prepared> particle;
-    spread_fields<double>(typename C::constants{}, particle, g.constants);
-    particle.position = to_components<Dim>(g.positions()[i]);
-    particle.velocity = to_components<Dim>(seen_velocity(g, i, dt));
-    load_state(typename C::state{}, g, i, dt, particle);
-    [[maybe_unused]] const auto one = [&particle]<class L>(const L& l) {
-      if constexpr (intersect<typename L::writes, typename C::derived>::count > 0) l.apply(particle);
-    };
-    (one(law), ...);
-    return particle;
-  }
-  template <class G>
-  [[nodiscard]] auto prepared(const G& g, std::size_t i, double dt = 0.0) const noexcept {
-    View<Dim, double, typename LayoutOf<G>::prepared> particle;
-    with_materials(g, [&](const auto&... law) { particle = prepared_by(g, i, dt, law...); });
-    return particle;
-  }
-
-  /// Whether records have been packed of a particle that a material law cannot work with. Forgets it.
-  [[nodiscard]] bool has_refused() noexcept { return std::exchange(refused_, false); }
-  /// Calls found(group, i, demand, particle, fields read) for the first particle that a material law cannot work with, if there is one.
-  template <class Function>
-  void find_refused(double dt, Function&& found) const {
-    for_each_group([&](const auto& g) {
-      with_materials(g, [&](const auto&... law) {
-        using Particle = View<Dim, double, typename LayoutOf<decltype(g)>::prepared>;
-        if constexpr ((sweep::Restricted<std::remove_cvref_t<decltype(law)>, Particle> || ...))
-          for (std::size_t i = 0; i < g.size(); ++i) {
-            const auto particle = prepared_by(g, i, dt, law...);
-            const auto one = [&]<class L>(const L& l) {
-              if constexpr (sweep::Restricted<L, Particle>)
-                if (!l.admits(particle)) found(g, i, l.demand(), particle, typename L::reads{});
-            };
-            (one(law), ...);
-          }
-      });
-    });
-  }
-
   /// What a summed law finds now at every particle of a group, row by row; for looking on, the particles stay as they are.
   template <class Tag, class Law>
   [[nodiscard]] auto find_sums(const Law& law) {
@@ -124,24 +67,8 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     return result;
   }
 
-  /// Velocity of particle i as laws see it; the wall velocity of groups that do not move.
-  template <class G>
-  [[nodiscard]] Vector<Dim> seen_velocity(const G& g, std::size_t i, double dt) const noexcept {
-    using M = typename std::remove_cvref_t<G>::Mobility;
-    if constexpr (particles::is_mobile<M>)
-      return Integrator::seen(g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
-    else if constexpr (particles::is_driven<M>) return g.template get<field::Velocity>()[i];
-    else if constexpr (requires { g.mobility.wall_velocity; }) return g.mobility.wall_velocity;
-    else return Vector<Dim>::Zero();
-  }
-
-  /// What forcings see of particle i at `time` [s]; `dt` [s] is the step under way, 0 between steps.
-  template <class G>
-  [[nodiscard]] forcing::Subject<Dim> subject(const G& g, std::size_t i, double time, double dt) const noexcept {
-    return {to_components<Dim>(g.positions()[i]), to_components<Dim>(seen_velocity(g, i, dt)), g.mass, time};
-  }
-
  protected:
+  using Base::pack_all, Base::pack_one, Base::load_state;
   using typename Base::Lanes;
   template <class G>
   using LayoutOf = typename Base::template LayoutOf<G>;
@@ -150,11 +77,6 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   template <class G>
   static constexpr bool mobile = Base::template mobile<G>;
 
-  void pack_all(double dt) {
-    for_each_group([&](auto& g) {
-      if constexpr (LayoutOf<decltype(g)>::has_records && evolves<decltype(g)>) pack(g, dt);
-    });
-  }
   /// Columns that summed laws set, in the evaluation of step number `step`, and records that know of them.
   void gather_summed(std::uint64_t step, double dt) {
     for_each_item([&](auto& active) {
@@ -183,41 +105,13 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
     begin_memories<true>(dt);
     for_each_group([&](auto& g) {
       using G = std::remove_cvref_t<decltype(g)>;
-      if constexpr (LayoutOf<G>::has_substeps || (LayoutOf<G>::has_bonds && particles::is_driven<typename G::Mobility>)) pack(g, 0.0);
+      if constexpr (LayoutOf<G>::has_substeps || (LayoutOf<G>::has_bonds && particles::is_driven<typename G::Mobility>)) this->pack(g, 0.0);
     });
     for_each_group([&](auto& g) {
       if constexpr (LayoutOf<decltype(g)>::has_substeps) gather<true>(g, 0.0, 0.0);
     });
   }
 
-  /// Record of particle i as laws see it in a step of length `dt`; material laws say if they cannot work with it.
-  template <class G, class... Law>
-  void pack_one(G& g, std::size_t i, double dt, const Law&... law) noexcept {
-    using Record = typename LayoutOf<G>::record;
-    const auto particle = prepared_by(g, i, dt, law...);
-    if constexpr ((sweep::Restricted<Law, std::remove_cv_t<decltype(particle)>> || ...)) {
-      const auto admits = [&particle]<class L>(const L& l) {
-        if constexpr (sweep::Restricted<L, std::remove_cvref_t<decltype(particle)>>) return l.admits(particle);
-        else return true;
-      };
-      if (!(admits(law) && ...)) std::atomic_ref<bool>(refused_).store(true, std::memory_order_relaxed);
-    }
-    View<Dim, double, Record> record;
-    copy_fields(Record{}, record, particle);
-    g.records.store(i, record);
-  }
-  /// Records of the ghosts, once those of their originals are right.
-  template <class G>
-  void pack_ghosts(G& g) {
-    if constexpr (LayoutOf<G>::has_pairs)
-      for_each_range(Ranges(g.ghosts.size()), [&](std::size_t, std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) {
-          auto record = g.records.load(g.ghosts.owner[k]);
-          record.position += to_components<Dim>(g.ghosts.shift[k]);
-          g.records.store(g.first_ghost() + k, record);
-        }
-      });
-  }
   /// Adds the force of the bonds of particle i to its row of sums, and the reactions to the rows of its partners if they are of this group.
   template <class Source, class G, class Add, class Law, class Memory>
   [[gnu::always_inline]] void bonds(const G& g, std::size_t i, const neighbours::BondList& list, const Add& add, const Law& law,
@@ -245,41 +139,6 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
         if (active.item.substepped == Fast) active.recall.begin(active.item.law, dt);
     });
   }
-  /// Records of all particles of a group and of its ghosts.
-  template <class G>
-  void pack(G& g, double dt) {
-    with_materials(g, [&](const auto&... law) {
-      for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) pack_one(g, i, dt, law...);
-      });
-    });
-    pack_ghosts(g);
-  }
-
-  template <class Tag, class I>
-  static auto laws_for(const I& item) {  // of a material that concerns the group
-    if constexpr (is_material<I>)
-      if constexpr (I::template concerns<Tag>) return std::apply([](const auto&... law) { return std::tie(law...); }, item.laws);
-      else return std::tuple<>();
-    else return std::tuple<>();
-  }
-  template <class... Field, class G, class Particle>
-  static void load_state(Fields<Field...>, const G& g, std::size_t i, double dt, Particle& particle) noexcept {
-    [[maybe_unused]] const auto one = [&]<class F>(F) {
-      double value = g.template get<F>()[i];
-      for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
-        if constexpr (std::is_same_v<typename Rate::integrates, F>) {
-          if (!(dt > 0.0)) return;  // between steps a state is what it is, whatever its rate
-          const double rate = g.template get<Rate>()[i];
-          if constexpr (Integrator::keeps_rates) value = Integrator::seen_state(value, rate, g.template get<Previous<Rate>>()[i], dt);
-          else value = Integrator::seen_state(value, rate, rate, dt);
-        }
-      });
-      F::of(particle) = value;
-    };
-    (one(Field{}), ...);
-  }
-
   /// How far the lists of a block are read.
   template <class G>
   [[nodiscard, gnu::always_inline]] static std::uint8_t level_of(const G& g, std::size_t block) noexcept {
@@ -408,14 +267,13 @@ class Forces : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_forced<I>)
         if constexpr (I::template concerns<typename G::Tag>) {
-          const auto seen = subject(g, i, time, dt);
+          const auto seen = this->subject(g, i, time, dt);
           std::apply([&](const auto&... law) { ((result += to_vector<Dim>(law.acceleration(seen))), ...); }, active.item.laws);
         }
     });
     return result;
   }
 
-  bool refused_ = false;  // a material law could not work with a particle
   sweep::Periods<Dim> bond_periods_{this->periods_};
 };
 

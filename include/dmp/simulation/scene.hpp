@@ -1,6 +1,4 @@
 #pragma once
-#include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -9,10 +7,10 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 #include <dmp/core/simulation_error.hpp>
+#include <dmp/simulation/checks.hpp>
 #include <dmp/simulation/engine.hpp>
 #include <dmp/simulation/limits.hpp>
 #include <dmp/simulation/progress.hpp>
@@ -117,8 +115,8 @@ class Scene {
       if (!goes_on) choose_step(first_step);
       clock_.automatic = options.time_step == 0.0 ? 1 : 0;
       engine_.refresh_frozen();
-      check();
-      check_materials(0.0);
+      check_state(engine_, clock_);
+      check_materials(engine_, clock_, 0.0);
       take_snapshot();
       Progress bar(shows_progress_, clock_.time, options.until);
       observe();
@@ -140,13 +138,13 @@ class Scene {
           clock_.tick();
           worn = engine_.begin_step(clock_.time_step, clock_.time);
         }
-        if (engine_.has_refused()) check_materials(clock_.time_step);
+        if (engine_.has_refused()) check_materials(engine_, clock_, clock_.time_step);
         if (worn) {
-          check();
+          check_state(engine_, clock_);
           engine_.build_lists(false);
         }
         engine_.prepare_forces(clock_.time_step, clock_.step, worn);
-        if (engine_.has_refused()) check_materials(clock_.time_step);  // of what has been summed over neighbours, or sub-stepped
+        if (engine_.has_refused()) check_materials(engine_, clock_, clock_.time_step);  // of what has been summed over neighbours, or sub-stepped
         engine_.forces(clock_.time_step, clock_.time);
         if (!engine_.dashpots_converged())
           throw SimulationError("the dashpots of implicit_bonds have not been solved for: conjugate gradients did not converge",
@@ -162,16 +160,16 @@ class Scene {
         }
         engine_.end_step(clock_.time_step);
         if (checks) {
-          check();
-          check_materials(0.0);
+          check_state(engine_, clock_);
+          check_materials(engine_, clock_, 0.0);
           take_snapshot();
         }
         if (options.time_step > 0.0 && (checks || chooses)) check_step(report.limit);
         observe();
         bar.show(clock_.time);
       }
-      check();
-      check_materials(0.0);
+      check_state(engine_, clock_);
+      check_materials(engine_, clock_, 0.0);
       report.time_step = clock_.time_step;
       report.step_bound_by = options.time_step == 0.0
                                  ? report.limit.bound_by
@@ -202,11 +200,11 @@ class Scene {
   void checkpoint(const std::string& path) {
     prepare();
     engine_.build_lists(true);
-    write_checkpoint(path, signature(), views(), clock_);
+    write_checkpoint(path, signature(), views_of(engine_), clock_);
   }
   /// Continues from a checkpoint of the same composition and the same particle numbers.
   void restart(const std::string& path) {
-    clock_ = read_checkpoint(path, signature(), views());
+    clock_ = read_checkpoint(path, signature(), views_of(engine_));
     for (auto& observer : observers_) observer.done = due(observer);
     engine_.build_lists(true);
     if (clock_.step == 0) engine_.start_afresh();
@@ -216,7 +214,7 @@ class Scene {
   }
   /// What a checkpoint must agree with: dimension, integrator, precision, groups, mobilities, columns.
   [[nodiscard]] std::string signature() {
-    return simulation::signature(Dim, std::string(Integrator::name) + ", " + std::string(Precision::name), views());
+    return simulation::signature(Dim, std::string(Integrator::name) + ", " + std::string(Precision::name), views_of(engine_));
   }
 
  private:
@@ -237,10 +235,10 @@ class Scene {
 
   void prepare() {
     if (prepared_) return;
-    check_input();
+    check_input(engine_);
     engine_.evaluate(clock_.time, clock_.step);
-    check_materials_at_start();
-    if (clock_.step == 0) reject_overlaps();
+    check_materials_at_start(engine_);
+    if (clock_.step == 0) reject_overlaps(engine_);
     prepared_ = true;
   }
 
@@ -267,97 +265,9 @@ class Scene {
     }
   }
 
-  /// Particles closer than half their spacing at the start are a fill done twice, or two fills that overlap.
-  void reject_overlaps() const {
-    engine_.for_each_item([&](const auto& active) {
-      using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_interaction<I>) {
-        reject_overlap(engine_.template group<typename I::A>(), engine_.template group<typename I::B>(), active.of_a);
-        if constexpr (!std::is_same_v<typename I::A, typename I::B>)
-          reject_overlap(engine_.template group<typename I::B>(), engine_.template group<typename I::A>(), active.of_b);
-      }
-    });
-  }
-  template <class A, class B>
-  void reject_overlap(const A& a, const B& b, const neighbours::PairList& pairs) const {
-    const double least = 0.5 * std::min(a.spacing, b.spacing);
-    if constexpr (A::Mobility::evolves)
-      for (std::size_t block = 0; block < a.blocks.size(); ++block)
-        for (std::size_t i = a.blocks.begin(block); i < a.blocks.end(block); ++i) {
-          for (const std::uint32_t row : pairs.of(block, i)) {
-            if (row >= b.size() && row < b.first_ghost()) continue;  // fills up the pack
-            const std::size_t j = b.sources(false).original(row);
-            const double distance = neighbours::minimum_image<Dim>(a.positions()[i] - b.positions()[j], engine_.box()).norm();
-            if (distance < least)
-              throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " +
-                                   b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
-                                   to_text(distance));
-          }
-        }
-  }
-
-  // ---- checks and rescue ----------------------------------------------------------------------------------------------------
-
-  [[nodiscard]] std::vector<particles::GroupView> views() {
-    std::vector<particles::GroupView> result;
-    engine_.for_each_group([&result](auto& g) { result.push_back(g.view()); });
-    engine_.for_each_item([&, item = 0](auto& active) mutable {  // and what bonds remember
-      using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_bonds<I>)
-        if constexpr (bond::HasMemory<decltype(I::law)>)
-          for (auto* const list : {&active.of_a, &active.of_b})
-            if (!list->empty())
-              result.push_back(list->view("bonds " + std::to_string(item) + (list == &active.of_a ? ", first ends" : ", second ends")));
-      ++item;
-    });
-    return result;
-  }
-  [[nodiscard]] Fault fault() {
-    std::array<double, Dim> lower, upper;
-    for (int d = 0; d < Dim; ++d) {
-      const auto k = static_cast<std::size_t>(d);
-      const bool open = engine_.box().periodic[k];  // particles wander out of a periodic face until the lists are rebuilt
-      lower[k] = open ? -std::numeric_limits<double>::infinity() : engine_.box().lower[d];
-      upper[k] = open ? std::numeric_limits<double>::infinity() : engine_.box().upper[d];
-    }
-    return find_fault(views(), lower, upper);
-  }
   /// Nothing wrong: then this state is the last good one.
-  void check() {
-    const Fault found = fault();
-    if (!found.what.empty())
-      throw SimulationError("a value " + found.what, {clock_.time, clock_.step, found.group, found.particle, found.field, found.value});
-    engine_.for_each_item([&](const auto& active) {
-      using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_bonds<I>) {
-        const auto& a = engine_.template group<typename I::A>();
-        const auto& b = engine_.template group<typename I::B>();
-        if (const auto* const bond = engine_.find_long_bond(active.item))
-          throw SimulationError("a bond has become longer than 0.45 of the periodic box",
-                                {clock_.time, clock_.step, a.name, bond->i, "distance to " + b.name + " " + std::to_string(bond->j),
-                                 neighbours::minimum_image<Dim>(a.positions()[bond->i] - b.positions()[bond->j], engine_.box()).norm()});
-      }
-    });
-  }
-  /// Text of what a material law was given and cannot work with.
-  template <class Particle, class... Field>
-  [[nodiscard]] static std::string given(const Particle& particle, Fields<Field...>) {
-    std::string text;
-    ((text += (text.empty() ? "" : ", ") + std::string(Field::name) + " " + to_text(Field::of(particle)) + " " + std::string(Field::unit)), ...);
-    return text;
-  }
-  /// Every particle must be one that the material laws of its group can work with; `dt` [s] is the step under way.
-  void check_materials(double dt) const {
-    engine_.find_refused(dt, [this]<class... Field>(const auto& g, std::size_t i, const std::string& demand, const auto& particle, Fields<Field...> read) {
-      double value = 0.0;
-      std::string_view name;
-      ((value = Field::of(particle), name = Field::name), ...);
-      throw SimulationError(demand + ", got " + given(particle, read), {clock_.time, clock_.step, g.name, g.id[i], std::string(name), value});
-    });
-  }
-  /// The state is whole and right: the last good one.
   void take_snapshot() {
-    if (!rescue_path_.empty()) last_good_.take(views(), clock_);
+    if (!rescue_path_.empty()) last_good_.take(views_of(engine_), clock_);
   }
   /// A step that the user gave must stay within the bounds as they change.
   void check_step(sweep::StepLimit& smallest) {
@@ -368,39 +278,10 @@ class Scene {
           "the given time step is longer than " + to_text(limit.stable_time_step) + " s, by now the bound of " + limit.stability_bound_by,
           {clock_.time, clock_.step, "", -1, "", 0.0});
   }
-  /// The same before anything is computed.
-  void check_input() {
-    const auto groups = views();
-    for (std::size_t a = 0; a < groups.size(); ++a)
-      for (std::size_t b = a + 1; b < groups.size(); ++b)
-        if (groups[a].name == groups[b].name)
-          throw ParameterError("scene: the names of groups must differ, got " + groups[a].name + " twice");
-    const Fault found = fault();
-    if (!found.what.empty())
-      throw ParameterError("scene: group " + found.group + ", particle " + std::to_string(found.particle) + ": " + found.field + " " +
-                           found.what + ", got " + to_text(found.value));
-    engine_.for_each_item([&](const auto& active) {
-      using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_interaction<I>) {
-        const auto& a = engine_.template group<typename I::A>();
-        const auto& b = engine_.template group<typename I::B>();
-        const double spacing = std::max(a.spacing, b.spacing);
-        if (active.item.cutoff() < (1.0 - 1e-9) * spacing)
-          throw ParameterError("scene: support radius (cut-off) of " + a.name + " and " + b.name + " must be >= their spacing " +
-                               to_text(spacing) + " m, got " + to_text(active.item.cutoff()));
-      }
-    });
-  }
-  /// check_materials at the start, when summed properties are known.
-  void check_materials_at_start() const {
-    engine_.find_refused(0.0, [](const auto& g, std::size_t i, const std::string& demand, const auto& particle, auto read) {
-      throw ParameterError("scene: group " + g.name + ", particle " + std::to_string(g.id[i]) + ": " + demand + ", got " + given(particle, read));
-    });
-  }
   void rescue(const SimulationError& error) {
     if (last_good_.empty()) return;
     try {
-      write_checkpoint(rescue_path_, signature(), views(), last_good_);
+      write_checkpoint(rescue_path_, signature(), views_of(engine_), last_good_);
     } catch (const std::exception& second) {
       throw SimulationError(std::string(error.what()) + "; and the last good state could not be written: " + second.what(), error.where);
     }

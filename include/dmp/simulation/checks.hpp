@@ -1,0 +1,149 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+#include <dmp/core/simulation_error.hpp>
+#include <dmp/simulation/engine.hpp>
+#include <dmp/simulation/state.hpp>
+
+/// What is asked of a scene before anything is computed, and of its state while it runs.
+namespace dmp::simulation {
+
+/// All columns of a scene's groups, and what its bonds remember.
+template <int Dim, class... Rest>
+[[nodiscard]] std::vector<particles::GroupView> views_of(Engine<Dim, Rest...>& engine) {
+  std::vector<particles::GroupView> result;
+  engine.for_each_group([&result](auto& g) { result.push_back(g.view()); });
+  engine.for_each_item([&, item = 0](auto& active) mutable {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_bonds<I>)
+      if constexpr (bond::HasMemory<decltype(I::law)>)
+        for (auto* const list : {&active.of_a, &active.of_b})
+          if (!list->empty())
+            result.push_back(list->view("bonds " + std::to_string(item) + (list == &active.of_a ? ", first ends" : ", second ends")));
+    ++item;
+  });
+  return result;
+}
+
+/// The first value of the present state that cannot be, if there is one.
+template <int Dim, class... Rest>
+[[nodiscard]] Fault find_fault(Engine<Dim, Rest...>& engine) {
+  std::array<double, Dim> lower, upper;
+  for (int d = 0; d < Dim; ++d) {
+    const auto k = static_cast<std::size_t>(d);
+    const bool open = engine.box().periodic[k];  // particles wander out of a periodic face until the lists are rebuilt
+    lower[k] = open ? -std::numeric_limits<double>::infinity() : engine.box().lower[d];
+    upper[k] = open ? std::numeric_limits<double>::infinity() : engine.box().upper[d];
+  }
+  return find_fault(views_of(engine), lower, upper);
+}
+
+/// Text of what a material law was given and cannot work with.
+template <class Particle, class... Field>
+[[nodiscard]] std::string given(const Particle& particle, Fields<Field...>) {
+  std::string text;
+  ((text += (text.empty() ? "" : ", ") + std::string(Field::name) + " " + to_text(Field::of(particle)) + " " + std::string(Field::unit)), ...);
+  return text;
+}
+
+/// All values must be finite, positive where they must be, and in the box; bonds must know which image of a partner they mean.
+/// Throws SimulationError with time, particle, field and value.
+template <int Dim, class... Rest>
+void check_state(Engine<Dim, Rest...>& engine, const Clock& clock) {
+  const Fault found = find_fault(engine);
+  if (!found.what.empty())
+    throw SimulationError("a value " + found.what, {clock.time, clock.step, found.group, found.particle, found.field, found.value});
+  engine.for_each_item([&](const auto& active) {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_bonds<I>) {
+      const auto& a = engine.template group<typename I::A>();
+      const auto& b = engine.template group<typename I::B>();
+      if (const auto* const bond = engine.find_long_bond(active.item))
+        throw SimulationError("a bond has become longer than 0.45 of the periodic box",
+                              {clock.time, clock.step, a.name, bond->i, "distance to " + b.name + " " + std::to_string(bond->j),
+                               neighbours::minimum_image<Dim>(a.positions()[bond->i] - b.positions()[bond->j], engine.box()).norm()});
+    }
+  });
+}
+
+/// Every particle must be one that the material laws of its group can work with; `dt` [s] is the step under way. Throws SimulationError.
+template <int Dim, class... Rest>
+void check_materials(const Engine<Dim, Rest...>& engine, const Clock& clock, double dt) {
+  engine.find_refused(dt, [&clock]<class... Field>(const auto& g, std::size_t i, const std::string& demand, const auto& particle, Fields<Field...> read) {
+    double value = 0.0;
+    std::string_view name;
+    ((value = Field::of(particle), name = Field::name), ...);
+    throw SimulationError(demand + ", got " + given(particle, read), {clock.time, clock.step, g.name, g.id[i], std::string(name), value});
+  });
+}
+/// The same at the start, when summed properties are known. Throws ParameterError.
+template <int Dim, class... Rest>
+void check_materials_at_start(const Engine<Dim, Rest...>& engine) {
+  engine.find_refused(0.0, [](const auto& g, std::size_t i, const std::string& demand, const auto& particle, auto read) {
+    throw ParameterError("scene: group " + g.name + ", particle " + std::to_string(g.id[i]) + ": " + demand + ", got " + given(particle, read));
+  });
+}
+
+/// Names, values, places and supports, before anything is computed. Throws ParameterError.
+template <int Dim, class... Rest>
+void check_input(Engine<Dim, Rest...>& engine) {
+  const auto groups = views_of(engine);
+  for (std::size_t a = 0; a < groups.size(); ++a)
+    for (std::size_t b = a + 1; b < groups.size(); ++b)
+      if (groups[a].name == groups[b].name)
+        throw ParameterError("scene: the names of groups must differ, got " + groups[a].name + " twice");
+  const Fault found = find_fault(engine);
+  if (!found.what.empty())
+    throw ParameterError("scene: group " + found.group + ", particle " + std::to_string(found.particle) + ": " + found.field + " " +
+                         found.what + ", got " + to_text(found.value));
+  engine.for_each_item([&](const auto& active) {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_interaction<I>) {
+      const auto& a = engine.template group<typename I::A>();
+      const auto& b = engine.template group<typename I::B>();
+      const double spacing = std::max(a.spacing, b.spacing);
+      if (active.item.cutoff() < (1.0 - 1e-9) * spacing)
+        throw ParameterError("scene: support radius (cut-off) of " + a.name + " and " + b.name + " must be >= their spacing " +
+                             to_text(spacing) + " m, got " + to_text(active.item.cutoff()));
+    }
+  });
+}
+
+template <int Dim, class... Rest, class A, class B>
+void reject_overlap(const Engine<Dim, Rest...>& engine, const A& a, const B& b, const neighbours::PairList& pairs) {
+  const double least = 0.5 * std::min(a.spacing, b.spacing);
+  if constexpr (A::Mobility::evolves)
+    for (std::size_t block = 0; block < a.blocks.size(); ++block)
+      for (std::size_t i = a.blocks.begin(block); i < a.blocks.end(block); ++i)
+        for (const std::uint32_t row : pairs.of(block, i)) {
+          if (row >= b.size() && row < b.first_ghost()) continue;  // fills up the pack
+          const std::size_t j = b.sources(false).original(row);
+          const double distance = neighbours::minimum_image<Dim>(a.positions()[i] - b.positions()[j], engine.box()).norm();
+          if (distance < least)
+            throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " +
+                                 b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
+                                 to_text(distance));
+        }
+}
+/// Particles closer than half their spacing at the start are a fill done twice, or two fills that overlap. Throws ParameterError.
+template <int Dim, class... Rest>
+void reject_overlaps(const Engine<Dim, Rest...>& engine) {
+  engine.for_each_item([&](const auto& active) {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_interaction<I>) {
+      const auto& a = engine.template group<typename I::A>();
+      const auto& b = engine.template group<typename I::B>();
+      reject_overlap(engine, a, b, active.of_a);
+      if constexpr (!std::is_same_v<typename I::A, typename I::B>) reject_overlap(engine, b, a, active.of_b);
+    }
+  });
+}
+
+}  // namespace dmp::simulation
