@@ -57,7 +57,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
                   "dmp: find_sums: a frozen group, or one without interactions, has no lists of neighbours");
     check_parameters(law);
     this->template check_reach<Tag>(law);
-    pack_all(0.0);  // the state between two steps; also after lists were built
+    this->pack_all(0.0);  // the state between two steps; also after lists were built
     std::vector<View<Dim, double, typename Law::sets>> result(g.size());
     particles::Sums<Dim, typename Law::sums> sums;
     clear_sums(g, sums);
@@ -68,7 +68,6 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
   }
 
  protected:
-  using Base::pack_all, Base::pack_one, Base::load_state;
   using typename Base::Lanes;
   template <class G>
   using LayoutOf = typename Base::template LayoutOf<G>;
@@ -87,11 +86,11 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
           sum_over_neighbours(active.item.law, g, active.sums[n], [&](std::size_t i, const auto& particle) {
             using Sets = typename decltype(active.item.law)::sets;
             View<Dim, double, Sets> seen;
-            load_state(Sets{}, g, i, dt, seen);
+            this->load_state(Sets{}, g, i, dt, seen);
             for_each_field(Sets{}, [&]<class F>(F) { g.template get<F>()[i] += F::of(particle) - F::of(seen); });
           });
         });
-        pack_all(dt);
+        this->pack_all(dt);
       }
     });
   }
