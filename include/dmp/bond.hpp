@@ -1,5 +1,6 @@
 // include/dmp/bond.hpp - tension and energy of a bond. Contract: bond/concept.hpp.
 #pragma once
+#include <dmp/bond/breaking.hpp>      // Any bond law with an end: at a largest strain or energy.
 #include <dmp/bond/concept.hpp>       // The contract, and what a law that misses it is told.
 #include <dmp/bond/harmonic.hpp>      // Linear spring, U = (1/2) k (r - r0)^2.
 #include <dmp/bond/kelvin_voigt.hpp>  // Linear spring and dashpot in parallel: a viscoelastic solid.

@@ -1,5 +1,6 @@
 #pragma once
 // Groups and their storage.
+#include <dmp/particles/clamp.hpp>      // How a driven group of held particles goes along a line.
 #include <dmp/particles/columns.hpp>    // Structure of arrays: one column per field.
 #include <dmp/particles/mobility.hpp>   // Mobile, Stationary, Frozen, Driven.
 #include <dmp/particles/precision.hpp>  // Double or single precision of pair laws.

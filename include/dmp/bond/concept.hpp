@@ -31,6 +31,10 @@ concept HasMemory = requires(const B law, double dt) {
   law.memory_after(dt);
 };
 
+/// Only a law that states `breaks` is compiled into a loop that takes bonds away.
+template <class B>
+concept CanBreak = requires(const B law, const Remembering<MovingStretch<double>, double> bond) { law.breaks(bond); };
+
 namespace detail {
 template <class B>
 using Seen = std::conditional_t<UsesVelocity<B>, MovingStretch<double>, Stretch<double>>;
@@ -47,6 +51,8 @@ using State = std::conditional_t<HasMemory<B>, Remembering<Seen<B>, double>, See
 ///                        step of dt [s] from that at its beginning and `length_change`. The function is asked once per bond and step,
 ///                        before the tension, which sees the new memory; what depends on dt alone is computed outside of it, once.
 ///                        dt = 0 is a sudden change of length, and if there is none the memory stays as it is.
+///   breaks(bond)         only of a law whose bonds break: whether this one does, now and for good. Asked once per evaluation of the force;
+///                        the answer must depend on the length and memory alone, so that both ends give the same.
 template <class B>
 concept BondPotential = std::is_trivially_copyable_v<B> && requires(const B law, const detail::State<B> bond) {
   { law.tension(bond) } -> std::same_as<double>;

@@ -118,15 +118,34 @@ class BondList {
       for (std::uint32_t k = offset_[i]; k < offset_[i + 1]; ++k)
         length_[k] = minimum_image<Dim>(own[i] - partners[partner_[k]], box).norm();
   }
-  /// What the entries of particle i remember, as `of(i)` has them: a number, and the length of the bond when it was last looked at [m].
+  /// What may change in the entries of particle i, as `of(i)` has them: the rest length, `filler` once the bond is broken; and where bonds
+  /// remember, a number and the length of the bond when it was last looked at [m].
   struct Memory {
+    double* rest_length;
     double* memory;
     double* length;
   };
-  [[nodiscard]] Memory memory_of(std::size_t i) noexcept { return {memory_.data() + offset_[i], length_.data() + offset_[i]}; }
+  [[nodiscard]] Memory memory_of(std::size_t i) noexcept {
+    const std::size_t first = memory_.empty() ? 0 : offset_[i];
+    return {rest_length_.data() + offset_[i], memory_.data() + first, length_.data() + first};
+  }
   /// All of it, for checkpoints.
   [[nodiscard]] particles::GroupView view(std::string name) {
-    return {std::move(name), "bonds", true, {}, {{"memory", "", 1, memory_, false}, {"length", "m", 1, length_, false}}};
+    particles::GroupView result{std::move(name), "bonds", true, {}, {{"rest_length", "m", 1, rest_length_, false}}};
+    if (!memory_.empty()) {
+      result.columns.push_back({"memory", "", 1, memory_, false});
+      result.columns.push_back({"length", "m", 1, length_, false});
+    }
+    return result;
+  }
+  /// Entries that are bonds.
+  [[nodiscard]] std::size_t whole() const noexcept {
+    return static_cast<std::size_t>(std::count_if(rest_length_.begin(), rest_length_.end(), [](double length) { return length >= 0.0; }));
+  }
+  /// Where `of(i)` has the bond of particle i of this group and `partner`; what fills up comes after the bonds.
+  [[nodiscard]] std::size_t find(std::size_t i, std::uint32_t partner) const noexcept {
+    const auto first = partner_.begin() + offset_[i], last = partner_.begin() + offset_[i + 1];
+    return static_cast<std::size_t>(std::find(first, last, partner) - first);
   }
 
   /// Marks the particles with bonds through periodic faces, as positions are now; until they are put back into the box, nothing changes.

@@ -23,7 +23,7 @@ template <int Dim, class... Rest>
   engine.for_each_item([&, item = 0](auto& active) mutable {
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_bonds<I>)
-      if constexpr (bond::HasMemory<decltype(I::law)>)
+      if constexpr (bond::HasMemory<decltype(I::law)> || bond::CanBreak<decltype(I::law)>)
         for (auto* const list : {&active.of_a, &active.of_b})
           if (!list->empty())
             result.push_back(list->view("bonds " + std::to_string(item) + (list == &active.of_a ? ", first ends" : ", second ends")));
@@ -65,7 +65,7 @@ void check_state(Engine<Dim, Rest...>& engine, const Clock& clock) {
     if constexpr (is_bonds<I>) {
       const auto& a = engine.template group<typename I::A>();
       const auto& b = engine.template group<typename I::B>();
-      if (const auto* const bond = engine.find_long_bond(active.item))
+      if (const auto* const bond = engine.find_long_bond(active))
         throw SimulationError("a bond has become longer than 0.45 of the periodic box",
                               {clock.time, clock.step, a.name, bond->i, "distance to " + b.name + " " + std::to_string(bond->j),
                                neighbours::minimum_image<Dim>(a.positions()[bond->i] - b.positions()[bond->j], engine.box()).norm()});

@@ -50,6 +50,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
     builds_since_sort_ = sort || builds_since_sort_ + 1 >= builds_per_sort ? 0 : builds_since_sort_ + 1;
     for_each_group([&](auto& g) { settle(g, builds_since_sort_ == 0); });
     if constexpr (has_pairs) {
+      this->renew_exclusions();
       for_each_group([&](auto& g) { prepare_sources(g); });
       for_each_item([&](auto& active) {
         using I = std::remove_cvref_t<decltype(active.item)>;

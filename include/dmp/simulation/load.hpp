@@ -1,10 +1,13 @@
 #pragma once
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <dmp/core/require.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
+#include <dmp/bond/concept.hpp>
 #include <dmp/forcing/concept.hpp>
+#include <dmp/simulation/composition.hpp>
 
 namespace dmp::simulation {
 
@@ -60,6 +63,39 @@ template <class Tag, class Scene, class Law>
 template <class Tag, class Scene, class Law>
 [[nodiscard]] Load<Scene::dimension> load_on(const Scene& scene, const Law& law) {
   return load_on<Tag>(scene, law, scene.time());
+}
+
+/// Force [N] with which bonds to other groups pull at a group as a whole: what its clamp must hold. Of the tension as it is now, that of
+/// dashpots and memories among it.
+template <class Tag, class Scene>
+[[nodiscard]] Vector<Scene::dimension> bond_load(Scene& scene) {
+  constexpr int dim = Scene::dimension;
+  Vector<dim> load = Vector<dim>::Zero();
+  scene.engine().for_each_item([&](auto& active) {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_bonds<I>)
+      if constexpr (std::is_same_v<typename I::A, Tag> != std::is_same_v<typename I::B, Tag>) {
+        const auto& a = scene.template group<typename I::A>();
+        const auto& b = scene.template group<typename I::B>();
+        for (const auto& one : active.item.bonds) {
+          if (scene.engine().is_broken(active, one)) continue;
+          const Vector<dim> apart = neighbours::minimum_image<dim>(a.positions()[one.i] - b.positions()[one.j], scene.engine().box());
+          const double length = apart.norm();
+          if (!(length > 0.0)) continue;
+          bond::Remembering<bond::MovingStretch<double>, double> seen{};
+          seen.length = length;
+          seen.rest_length = one.rest_length;
+          seen.length_rate =
+              apart.dot(scene.engine().seen_velocity(a, one.i, 0.0) - scene.engine().seen_velocity(b, one.j, 0.0)) / length;
+          if constexpr (bond::HasMemory<decltype(I::law)>)
+            seen.memory = scene.engine().look_up(active, one, [](auto& list, std::size_t i, std::size_t entry) { return list.memory_of(i).memory[entry]; });
+          double tension = active.item.law.tension(seen);
+          if constexpr (requires { active.item.law.dashpot; }) tension += active.item.law.dashpot.tension(seen);
+          load += (std::is_same_v<typename I::A, Tag> ? -1.0 : 1.0) * one.weight * tension / length * apart;
+        }
+      }
+  });
+  return load;
 }
 
 }  // namespace dmp::simulation

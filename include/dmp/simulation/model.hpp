@@ -121,12 +121,32 @@ class Model {
     std::apply([&](const auto&... active) { (function(active), ...); }, items_);
   }
 
+  /// Calls function(list, row, entry): where a bond of an item is listed; at its first end, if at both.
+  template <class Active, class Function>
+  static auto look_up(Active& active, const neighbours::Bond& bond, const Function& function) {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    constexpr bool same = std::is_same_v<typename I::A, typename I::B>;
+    const bool at_b = !same && active.of_a.empty();
+    const std::uint32_t own = same ? std::min(bond.i, bond.j) : at_b ? bond.j : bond.i, other = bond.i + bond.j - own;
+    auto& list = at_b ? active.of_b : active.of_a;
+    return function(list, own, list.find(own, other));
+  }
+  /// Whether a bond of an item has broken.
+  template <class Active>
+  [[nodiscard]] static bool is_broken([[maybe_unused]] const Active& active, [[maybe_unused]] const neighbours::Bond& bond) noexcept {
+    if constexpr (bond::CanBreak<decltype(active.item.law)>)
+      return look_up(active, bond, [](const auto& list, std::size_t i, std::size_t entry) { return list.of(i).rest_length[entry] < 0.0; });
+    else return false;
+  }
+
   /// The first bond that is longer than a bond may be in a periodic box; nullptr if there is none.
-  template <class I>
-  [[nodiscard]] const neighbours::Bond* find_long_bond(const I& item) const {
+  template <class Active>
+  [[nodiscard]] const neighbours::Bond* find_long_bond(const Active& active) const {
+    using I = decltype(active.item);
     const auto& a = group<typename I::A>().positions();
     const auto& b = group<typename I::B>().positions();
-    for (const auto& bond : item.bonds) {
+    for (const auto& bond : active.item.bonds) {
+      if (is_broken(active, bond)) continue;
       const Vector<Dim> apart = neighbours::minimum_image<Dim>(a[bond.i] - b[bond.j], box_);
       for (int d = 0; d < Dim; ++d)
         if (const double period = periods_[static_cast<std::size_t>(d)];
@@ -173,6 +193,16 @@ class Model {
                       .c_str(),
                   summed.cutoff());
     });
+  }
+
+  /// Pairs that were left out because of bonds that have broken since are pairs again.
+  void renew_exclusions() {
+    std::size_t whole = 0;
+    for_each_item([&whole](const auto& active) {
+      if constexpr (is_bonds<std::remove_cvref_t<decltype(active.item)>>)
+        if constexpr (bond::CanBreak<decltype(active.item.law)>) whole += active.of_a.whole() + active.of_b.whole();
+    });
+    if (std::exchange(whole_bonds_, whole) != whole) prepare_exclusions();
   }
 
   geometry::Box<Dim> box_;
@@ -247,6 +277,7 @@ class Model {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>)
         for (const auto& bond : active.item.bonds) {
+          if (is_broken(active, bond)) continue;
           const std::uint32_t i = first[index_of<typename I::A>()] + bond.i, j = first[index_of<typename I::B>()] + bond.j;
           graph[i].push_back(j);
           graph[j].push_back(i);
@@ -266,6 +297,7 @@ class Model {
 
   Groups groups_;
   Items items_;
+  std::size_t whole_bonds_ = 0;  // of those that may break, when exclusions were last found
 };
 
 }  // namespace dmp::simulation

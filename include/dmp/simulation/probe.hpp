@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <optional>
 #include <type_traits>
+#include <vector>
 #include <dmp/core/field.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/neighbours/bond_list.hpp>
@@ -43,10 +44,24 @@ template <class Scene>
       const auto& first = scene.template group<typename I::A>().positions();
       const auto& second = scene.template group<typename I::B>().positions();
       for (const auto& bond : active.item.bonds)
-        if (neighbours::minimum_image<Scene::dimension>(first[bond.i] - second[bond.j], scene.engine().box()).isZero(0.0)) ++count;
+        if (!scene.engine().is_broken(active, bond) && neighbours::minimum_image<Scene::dimension>(first[bond.i] - second[bond.j], scene.engine().box()).isZero(0.0)) ++count;
     }
   });
   return count;
+}
+
+/// Bonds between two groups, or within one, that have broken: as they were given, with their rest lengths.
+template <class A, class B, class Scene>
+[[nodiscard]] std::vector<neighbours::Bond> broken_bonds(const Scene& scene) {
+  std::vector<neighbours::Bond> result;
+  scene.engine().for_each_item([&](const auto& active) {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_bonds<I>)
+      if constexpr (std::is_same_v<typename I::A, A> && std::is_same_v<typename I::B, B>)
+        for (const auto& bond : active.item.bonds)
+          if (scene.engine().is_broken(active, bond)) result.push_back(bond);
+  });
+  return result;
 }
 
 }  // namespace dmp::simulation

@@ -123,6 +123,11 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
     return false;
   }() || ...),
                 "dmp: relax: the tension of a bond with memory depends on time, so there is no energy to minimise");
+  static_assert(!([] {
+    if constexpr (is_bonds<Item>) return bond::CanBreak<decltype(Item::law)>;
+    return false;
+  }() || ...),
+                "dmp: relax: bonds that break would do so on the way to the minimum; relax with the law inside of bond::Breaking");
   require_positive("relax: force_tolerance", options.force_tolerance, "N");
   constexpr double first_mixing = 0.1, mixing_decay = 0.99, growth = 1.1, shrinkage = 0.5, safety = 0.9;
   constexpr int patience = 5;               // steps downhill before the step grows

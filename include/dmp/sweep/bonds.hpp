@@ -79,14 +79,24 @@ struct BondRecords {
   int stride;              ///< doubles from one of these to the next
 };
 
-/// What the bonds of a law remember in the step under way: nothing ...
+/// What changes in the bonds of a law in the step under way: nothing ...
 struct NoMemory {};
 template <class Law>
 struct Recall {
   void begin(const Law&, double) noexcept {}
   [[nodiscard]] NoMemory of(const neighbours::BondList&, std::size_t) const noexcept { return {}; }
 };
-/// ... or a number each, which `after` carries to the end of the step.
+/// ... or whether they are there ...
+template <bond::CanBreak Law>
+  requires(!bond::HasMemory<Law>)
+struct Recall<Law> {
+  struct Entries {
+    neighbours::BondList::Memory at;
+  };
+  void begin(const Law&, double) noexcept {}
+  [[nodiscard, gnu::always_inline]] Entries of(neighbours::BondList& list, std::size_t i) const noexcept { return {list.memory_of(i)}; }
+};
+/// ... or a number that they remember, which `after` carries to the end of the step.
 template <bond::HasMemory Law>
 struct Recall<Law> {
   using After = decltype(std::declval<const Law&>().memory_after(0.0));
@@ -132,24 +142,32 @@ template <int Dim, bool Periodic, class React, class Law, class Memory = NoMemor
       squares[lane] = products(apart, apart);
       if constexpr (with_velocity) approaches[lane] = products(apart, (own_velocity - Row<Dim>::load(partner + Dim)).alone());
     });
-    const Lanes rest_length = Lanes::load(bonds.rest_length + k), length_squared = sum_across(squares), length = sqrt(length_squared);
+    Lanes rest_length = Lanes::load(bonds.rest_length + k);
+    const Lanes length_squared = sum_across(squares), length = sqrt(length_squared);
     const Lanes inverse = length * (1.0 / length_squared);  // the division need not wait for the root
     const auto stretch = [&]() __attribute__((always_inline)) {
       if constexpr (with_velocity) return bond::MovingStretch<Lanes>{{length, rest_length}, select(length_squared > 0.0, inverse * sum_across(approaches), 0.0)};
       else return bond::Stretch<Lanes>{length, rest_length};
     }
     ();
-    Lanes tension;
-    if constexpr (bond::HasMemory<Law>) {
-      double *const at = memory.at.memory + k, *const length_at = memory.at.length + k;
-      bond::Remembering<std::remove_const_t<decltype(stretch)>, Lanes> now{stretch, length - Lanes::load(length_at), Lanes::load(at)};
-      now.memory = memory.after(now);
-      now.memory.store(at);
-      length.store(length_at);
-      tension = law.tension(now);
-    } else {
-      tension = law.tension(stretch);
+    const auto seen = [&]() __attribute__((always_inline)) {
+      if constexpr (bond::HasMemory<Law>) {
+        double *const at = memory.at.memory + k, *const length_at = memory.at.length + k;
+        bond::Remembering<std::remove_const_t<decltype(stretch)>, Lanes> now{stretch, length - Lanes::load(length_at), Lanes::load(at)};
+        now.memory = memory.after(now);
+        now.memory.store(at);
+        length.store(length_at);
+        return now;
+      } else {
+        return stretch;
+      }
     }
+    ();
+    if constexpr (bond::CanBreak<Law>) {
+      rest_length = select(law.breaks(seen), neighbours::BondList::filler, rest_length);
+      rest_length.store(memory.at.rest_length + k);
+    }
+    const Lanes tension = law.tension(seen);
     const Lanes weight = Lanes::load(bonds.weight + k * bonds.weight_step);
     const Lanes pull = select(rest_length >= 0.0 && length_squared > 0.0, tension * (inverse * weight), 0.0);
     unrolled<width>([&](auto lane) __attribute__((always_inline)) {
