@@ -125,11 +125,11 @@ TEST_CASE("bonds between two groups: rows 1 and 1 are two particles, and (0, 1) 
 TEST_CASE("a bond within a block is listed once, at the particle further up, one between two blocks at both ends") {
   const std::vector<Bond> bonds{{0, 1, 0.1}, {3, 1, 0.2}, {1, 2, 0.3}};
   BondList list;
-  list.build(blocks_of({0, 5}), bonds, true, false, 4);
+  list.build(blocks_of({0, 5}), bonds, true, false, 4, {});
   CHECK(bonds_of(list, 0) == Ends{{1, 0.1}});
   CHECK(bonds_of(list, 1) == Ends{{2, 0.3}, {3, 0.2}});
   for (const std::size_t i : {2u, 3u, 4u}) CHECK(bonds_of(list, i).empty());
-  list.build(blocks_of({0, 2, 5}), bonds, true, false, 4);
+  list.build(blocks_of({0, 2, 5}), bonds, true, false, 4, {});
   CHECK(bonds_of(list, 0) == Ends{{1, 0.1}});
   CHECK(bonds_of(list, 1) == Ends{{2, 0.3}, {3, 0.2}});
   CHECK(bonds_of(list, 2) == Ends{{1, 0.3}});
@@ -141,12 +141,12 @@ TEST_CASE("a bond of two groups is listed once in the list of either, at the end
   const std::vector<Bond> bonds{{0, 1, 0.1}, {3, 1, 0.2}, {1, 2, 0.3}};
   for (const std::size_t middle : {1u, 2u}) {
     BondList first, second;
-    first.build(blocks_of({0, middle, 4}), bonds, false, false, 4);  // the ends i ...
+    first.build(blocks_of({0, middle, 4}), bonds, false, false, 4, {});  // the ends i ...
     CHECK(bonds_of(first, 0) == Ends{{1, 0.1}});
     CHECK(bonds_of(first, 1) == Ends{{2, 0.3}});
     CHECK(bonds_of(first, 2).empty());
     CHECK(bonds_of(first, 3) == Ends{{1, 0.2}});
-    second.build(blocks_of({0, middle, 3}), bonds, false, true, 4);  // ... and the ends j
+    second.build(blocks_of({0, middle, 3}), bonds, false, true, 4, {});  // ... and the ends j
     CHECK(bonds_of(second, 0).empty());
     CHECK(bonds_of(second, 1) == Ends{{0, 0.1}, {3, 0.2}});
     CHECK(bonds_of(second, 2) == Ends{{1, 0.3}});
@@ -169,7 +169,7 @@ TEST_CASE("a net at random: with its reactions every bond acts once on either en
       CAPTURE(pack);
       const auto blocks = blocks_of(bounds);
       BondList list;
-      list.build(blocks, bonds, true, false, pack);
+      list.build(blocks, bonds, true, false, pack, {});
       std::vector<std::vector<double>> acting(beads, std::vector<double>(beads, 0.0));
       double entries = 0.0;
       std::size_t astray = 0;
@@ -200,7 +200,7 @@ TEST_CASE("the weights of the bonds of a particle add up wherever they are liste
   using Sums = std::vector<double>;
   const auto sums = [&bonds](std::size_t count, bool same_group, bool own_is_j, const std::vector<std::size_t>& bounds) {
     BondList list;
-    list.build(blocks_of(bounds), bonds, same_group, own_is_j, 4);
+    list.build(blocks_of(bounds), bonds, same_group, own_is_j, 4, {});
     Sums result;
     for (std::size_t i = 0; i < count; ++i) result.push_back(list.sum_of_weights(i));
     return result;
@@ -226,7 +226,7 @@ TEST_CASE("every bond brings its weight, at whatever end it is listed; where all
       if (!weighted)
         for (Bond& bond : bonds) bond.weight = 1.0;
       BondList list;
-      list.build(blocks_of({0, middle, 4}), bonds, true, false, 4);
+      list.build(blocks_of({0, middle, 4}), bonds, true, false, 4, {});
       for (std::size_t i = 0; i < 4; ++i) {
         const auto of = list.of(i);
         for (std::size_t k = 0; k < of.size; ++k)
@@ -247,7 +247,7 @@ TEST_CASE("the bonds of a particle fill whole packs, with entries that say they 
         CAPTURE(pack);
         CAPTURE(bonds);
         BondList list;
-        list.build(dmp::Blocks(same_group ? 10 : 1), std::span(star).first(bonds), same_group, false, pack);
+        list.build(dmp::Blocks(same_group ? 10 : 1), std::span(star).first(bonds), same_group, false, pack, {});
         const auto of = list.of(0);
         CHECK(of.size == (bonds + pack - 1) / pack * pack);
         CHECK(bonds_of(list, 0).size() == bonds);
@@ -262,7 +262,7 @@ TEST_CASE("bonds through periodic faces are told from those inside, at each part
   const test::Cloud<1> beads{Vector<1>(0.05), Vector<1>(0.3), Vector<1>(0.6), Vector<1>(0.95)};
   const Box<1> box{.lower = {0.0}, .upper = {1.0}, .periodic = {true}};
   BondList list;
-  list.build(blocks_of({0, 1, 4}), std::vector<Bond>{{0, 1, 0.2}, {1, 2, 0.2}, {2, 3, 0.2}, {3, 0, 0.2}}, true, false, 4);
+  list.build(blocks_of({0, 1, 4}), std::vector<Bond>{{0, 1, 0.2}, {1, 2, 0.2}, {2, 3, 0.2}, {3, 0, 0.2}}, true, false, 4, {});
   list.mark_crossing<1>(beads, beads, box);
   CHECK(list.crosses(0));
   CHECK_FALSE(list.crosses(1));
@@ -277,7 +277,7 @@ TEST_CASE("no bonds: empty lists") {
   CHECK(list.empty());
   for (const std::size_t particles : {3u, 0u}) {
     const dmp::Blocks blocks(particles);
-    list.build(blocks, {}, true, false, 4);
+    list.build(blocks, {}, true, false, 4, {});
     CHECK(list.empty());
     CHECK(list.entries(blocks, 0) == 0.0);
     for (std::size_t i = 0; i < particles; ++i) {

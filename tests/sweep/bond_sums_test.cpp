@@ -92,7 +92,7 @@ test::Cloud<Dim> in_packs(const Group<Dim>& own, const Group<Dim>& others, bool 
                           const Blocks& blocks, const Law& law) {
   using Sums = particles::Sums<Dim, Fields<field::Force, field::DensityRate>>;
   neighbours::BondList list;
-  list.build(blocks, bonds, same_group, own_is_j, Lanes::width);
+  list.build(blocks, bonds, same_group, own_is_j, Lanes::width, {Others::stride, Sums::stride});
   const auto own_records = records_of<Own>(own);
   const auto other_records = records_of<Others>(others);
   std::array<double, Dim> lengths;
@@ -102,18 +102,17 @@ test::Cloud<Dim> in_packs(const Group<Dim>& own, const Group<Dim>& others, bool 
   sums.resize(blocks.far_row(blocks.size()));
   sums.set_zero(0, sums.size());
   for (std::size_t i = 0; i < own.positions.size(); ++i) sums.data()[i * Sums::stride + Dim] = static_cast<double>(i);  // the density rate
-  const auto plus = [&sums](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) {
-    double* const to = sums.data() + row * static_cast<std::size_t>(Sums::stride);
-    sweep::Row<Dim>::load(to).plus(factor, vector).store(to);
+  const auto plus = [&sums](std::size_t at, Lanes factor, const sweep::Row<Dim>& vector) {
+    sweep::Row<Dim>::load(sums.data() + at).plus(factor, vector).store(sums.data() + at);
   };
-  const auto react = [&](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) {
-    if (same_group) plus(row, factor, vector);
+  const auto react = [&](std::size_t at, Lanes factor, const sweep::Row<Dim>& vector) {
+    if (same_group) plus(at, factor, vector);
   };
   test::Cloud<Dim> forces;
   std::size_t spoilt = 0;
   for (std::size_t i = 0; i < own.positions.size(); ++i) {
-    const sweep::BondRecords records{own_records.data() + i * Own::stride, other_records.data(), Others::stride};
-    plus(i, 1.0, sweep::sum_bonds<Dim, Periodic>(records, list.of(i), periods, react, law));
+    const sweep::BondRecords records{own_records.data() + i * Own::stride, other_records.data()};
+    plus(i * Sums::stride, 1.0, sweep::sum_bonds<Dim, Periodic, Own::numbers == Dim && Others::numbers == Dim>(records, list.of(i), periods, react, law));
     View<Dim, Lanes, Fields<field::Force, field::DensityRate>> nothing;
     sweep::set_zero(nothing);
     const auto total = sums.take(i, nothing);

@@ -48,15 +48,20 @@ class BondList {
   /// Entries of one particle, `size` of them.
   struct Entries {
     std::size_t size;
-    const std::uint32_t* partner;
-    const std::uint32_t* reaction;  ///< row to which the reaction is added: the partner's, or one that nobody wants
+    const std::uint32_t* partner;   ///< row, times the stride of records
+    const std::uint32_t* reaction;  ///< row to which the reaction is added, times the stride of sums: the partner's, or one that nobody wants
     const double* rest_length;
     const double* weight;
     std::size_t weight_step;  ///< 0: all weights are 1, and one pack of them is there
   };
 
+  /// Doubles from one row to the next, in the records of partners and in the sums of this group.
+  struct Strides {
+    std::uint32_t records = 1, sums = 1;
+  };
   /// `same_group`: both ends lie in this group; if not, `own_is_j` picks the end that does. `pack` entries make a whole pack.
-  void build(const Blocks& blocks, std::span<const Bond> bonds, bool same_group, bool own_is_j, std::size_t pack) {
+  void build(const Blocks& blocks, std::span<const Bond> bonds, bool same_group, bool own_is_j, std::size_t pack, Strides strides) {
+    strides_ = strides;
     const std::size_t particles = blocks.end(blocks.size() - 1);
     std::vector<std::uint32_t> block_of(particles);
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -92,19 +97,19 @@ class BondList {
     weight_step_ = weighted ? 1 : 0;
     crosses_.assign(particles, 0);
     const auto nowhere = [&](std::size_t i, std::uint32_t entry) {
-      return static_cast<std::uint32_t>(blocks.far_row(block_of[i]) + entry % pack);
+      return strides.sums * static_cast<std::uint32_t>(blocks.far_row(block_of[i]) + entry % pack);
     };
     std::vector<std::uint32_t> cursor(offset_.begin(), offset_.end() - 1);
     each([&](std::uint32_t own, std::uint32_t other, bool once, const Bond& bond) {
       const std::uint32_t to = cursor[own]++;
-      partner_[to] = other;
-      reaction_[to] = once ? other : nowhere(own, to);
+      partner_[to] = strides.records * other;
+      reaction_[to] = once ? strides.sums * other : nowhere(own, to);
       rest_length_[to] = bond.rest_length;
       if (weighted) weight_[to] = bond.weight;
     });
     for (std::size_t i = 0; i < particles; ++i)
       for (std::uint32_t k = cursor[i]; k < offset_[i + 1]; ++k) {
-        partner_[k] = same_group ? static_cast<std::uint32_t>(i) : partner_[k - 1];
+        partner_[k] = same_group ? strides.records * static_cast<std::uint32_t>(i) : partner_[k - 1];
         reaction_[k] = nowhere(i, k);
       }
   }
@@ -116,7 +121,7 @@ class BondList {
     length_.assign(partner_.size(), 0.0);
     for (std::size_t i = 0; i + 1 < offset_.size(); ++i)
       for (std::uint32_t k = offset_[i]; k < offset_[i + 1]; ++k)
-        length_[k] = minimum_image<Dim>(own[i] - partners[partner_[k]], box).norm();
+        length_[k] = minimum_image<Dim>(own[i] - partners[partner_[k] / strides_.records], box).norm();
   }
   /// What may change in the entries of particle i, as `of(i)` has them: the rest length, `filler` once the bond is broken; and where bonds
   /// remember, a number and the length of the bond when it was last looked at [m].
@@ -145,7 +150,7 @@ class BondList {
   /// Where `of(i)` has the bond of particle i of this group and `partner`; what fills up comes after the bonds.
   [[nodiscard]] std::size_t find(std::size_t i, std::uint32_t partner) const noexcept {
     const auto first = partner_.begin() + offset_[i], last = partner_.begin() + offset_[i + 1];
-    return static_cast<std::size_t>(std::find(first, last, partner) - first);
+    return static_cast<std::size_t>(std::find(first, last, strides_.records * partner) - first);
   }
 
   /// Marks the particles with bonds through periodic faces, as positions are now; until they are put back into the box, nothing changes.
@@ -154,7 +159,7 @@ class BondList {
     for (std::size_t i = 0; i + 1 < offset_.size(); ++i) {
       crosses_[i] = 0;
       for (std::uint32_t k = offset_[i]; k < offset_[i + 1]; ++k) {
-        const Vector<Dim> apart = own[i] - partners[partner_[k]];
+        const Vector<Dim> apart = own[i] - partners[partner_[k] / strides_.records];
         if (rest_length_[k] >= 0.0 && apart != minimum_image<Dim>(apart, box)) crosses_[i] = 1;
       }
     }
@@ -188,6 +193,7 @@ class BondList {
   std::vector<std::uint32_t> offset_{0}, partner_, reaction_;
   std::vector<double> rest_length_, weight_, sum_of_weights_, memory_, length_;
   std::size_t weight_step_ = 0;
+  Strides strides_;
   std::vector<std::uint8_t> crosses_;
 };
 

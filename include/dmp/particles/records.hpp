@@ -91,6 +91,7 @@ class Records<Dim, Fields<Field...>, Precision> {
           if constexpr (slot < position_numbers) to[slot] = frame_.write(number, slot);
           else to[slot] = static_cast<Real>(number);
         });
+    unrolled<stride - numbers>([to](auto slot) __attribute__((always_inline)) { to[numbers + slot] = Real(0); });
   }
   [[nodiscard]] view<double> load(std::size_t index) const noexcept {
     const Real* const from = data_.data() + index * stride;

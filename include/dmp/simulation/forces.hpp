@@ -117,16 +117,17 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
                                     const Memory& memory) const noexcept {
     const auto& source = this->template group<Source>();
     using Partners = typename std::remove_cvref_t<decltype(source)>::Records;
-    const sweep::BondRecords records{g.records.data() + i * G::Records::stride, source.records.data(), Partners::stride};
-    const auto plus = [&add](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
-      double* const to = add.data + row * static_cast<std::size_t>(G::Sums::stride);
-      sweep::Row<Dim>::load(to).plus(factor, vector).store(to);
+    const sweep::BondRecords records{g.records.data() + i * G::Records::stride, source.records.data()};
+    constexpr bool positions_alone = Partners::numbers == Dim && G::Records::numbers == Dim;
+    const auto plus = [sums = add.data](std::size_t at, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
+      sweep::Row<Dim>::load(sums + at).plus(factor, vector).store(sums + at);
     };
-    const auto react = [&](std::size_t row, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
-      if constexpr (std::is_same_v<Source, typename G::Tag>) plus(row, factor, vector);
+    const auto react = [plus](std::size_t at, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
+      if constexpr (std::is_same_v<Source, typename G::Tag>) plus(at, factor, vector);
     };
-    if (list.crosses(i)) plus(i, 1.0, sweep::sum_bonds<Dim, true>(records, list.of(i), bond_periods_, react, law, memory));
-    else plus(i, 1.0, sweep::sum_bonds<Dim, false>(records, list.of(i), bond_periods_, react, law, memory));
+    const std::size_t own = i * static_cast<std::size_t>(G::Sums::stride);
+    if (list.crosses(i)) plus(own, 1.0, sweep::sum_bonds<Dim, true, positions_alone>(records, list.of(i), bond_periods_, react, law, memory));
+    else plus(own, 1.0, sweep::sum_bonds<Dim, false, positions_alone>(records, list.of(i), bond_periods_, react, law, memory));
   }
 
  private:

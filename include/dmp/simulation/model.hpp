@@ -229,8 +229,12 @@ class Model {
     auto& b = group<typename I::B>();
     constexpr bool same = std::is_same_v<typename I::A, typename I::B>;
     neighbours::complete_bonds<Dim>(active.item.bonds, a.positions(), b.positions(), same, box_, same ? a.name : a.name + " and " + b.name);
-    if constexpr (mobile<decltype(a)>) active.of_a.build(a.blocks, active.item.bonds, same, false, Lanes::width);
-    if constexpr (mobile<decltype(b)> && !same) active.of_b.build(b.blocks, active.item.bonds, false, true, Lanes::width);
+    using GroupA = std::remove_cvref_t<decltype(a)>;
+    using GroupB = std::remove_cvref_t<decltype(b)>;
+    if constexpr (mobile<GroupA>)
+      active.of_a.build(a.blocks, active.item.bonds, same, false, Lanes::width, {GroupB::Records::stride, GroupA::Sums::stride});
+    if constexpr (mobile<GroupB> && !same)
+      active.of_b.build(b.blocks, active.item.bonds, false, true, Lanes::width, {GroupA::Records::stride, GroupB::Sums::stride});
     a.may_be_sorted = b.may_be_sorted = false;
     if constexpr (bond::HasMemory<decltype(I::law)>) {
       if (!active.of_a.empty()) active.of_a.template remember<Dim>(a.positions(), b.positions(), box_);

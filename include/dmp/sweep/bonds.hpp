@@ -76,7 +76,6 @@ class Periods {
 struct BondRecords {
   const double* own;       ///< of the particle
   const double* partners;  ///< of the group at the other ends
-  int stride;              ///< doubles from one of these to the next
 };
 
 /// What changes in the bonds of a law in the step under way: nothing ...
@@ -114,9 +113,10 @@ struct Recall<Law> {
 };
 
 /// Force [N] of its bonds on a particle. Entries with a negative rest length are none; a bond of length zero has no direction and exerts no
-/// force. `react(row, factor, vector)` adds the reaction factor * vector [N] to a row. Lanes are components while vectors are at work, and
-/// bonds while the law is asked. `memory` is brought to the end of the step.
-template <int Dim, bool Periodic, class React, class Law, class Memory = NoMemory>
+/// force. `react(to, factor, vector)` adds the reaction factor * vector [N] at double number `to` of the sums. Lanes are components while
+/// vectors are at work, and bonds while the law is asked. `memory` is brought to the end of the step. `PositionsAlone`: records hold the
+/// position, zeros and nothing else.
+template <int Dim, bool Periodic, bool PositionsAlone = false, class React, class Law, class Memory = NoMemory>
 [[nodiscard, gnu::always_inline]] inline Row<Dim> sum_bonds(const BondRecords records, const neighbours::BondList::Entries bonds,
                                                             [[maybe_unused]] const Periods<Dim>& periods, const React react, const Law law,
                                                             [[maybe_unused]] const Memory memory = {}) noexcept {
@@ -131,10 +131,10 @@ template <int Dim, bool Periodic, class React, class Law, class Memory = NoMemor
     Row<Dim> separation[width];
     Lanes squares[width], approaches[width];
     unrolled<width>([&](auto lane) __attribute__((always_inline)) {
-      const double* const partner =
-          records.partners + static_cast<std::size_t>(bonds.partner[k + lane]) * static_cast<unsigned>(records.stride);
+      const double* const partner = records.partners + bonds.partner[k + lane];
       auto& apart = separation[lane];
-      apart = (own_position - Row<Dim>::load(partner)).alone();
+      apart = own_position - Row<Dim>::load(partner);
+      if constexpr (!PositionsAlone) apart = apart.alone();
       if constexpr (Periodic)
         unrolled<Row<Dim>::registers>([&](auto r) __attribute__((always_inline)) {
           apart.part[r] = apart.part[r] - period.part[r] * nearest_whole(apart.part[r] * per_period.part[r]);
