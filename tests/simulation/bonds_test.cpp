@@ -185,6 +185,19 @@ TEST_CASE("a held bead: the bound of the step is that of the free bead's mass al
   CHECK(predicted.step_limit().stable_time_step == doctest::Approx(1.0 / 20.0).epsilon(1e-12));
 }
 
+TEST_CASE("a dashpot alone, k = 0: beads that fly apart stop as exp(-c t/m) after v m/c, one held or both free") {
+  const auto check = [&]<class Hold>(Hold) {
+    constexpr double damping = 3.0, mass = reduced_mass<Hold>, speed = 1.5, time = 0.7;
+    auto pair = bead_pair<ExtrapolatedVerlet, Hold>({.stiffness = 0.0, .damping = damping}, {.force = 0.0});
+    pair.template group<Right>().template get<field::Velocity>()[0][0] = speed;
+    pair.run({.until = time, .time_step = 1e-3});
+    CHECK(extension(pair) == doctest::Approx(speed * mass / damping * (1.0 - std::exp(-damping / mass * time))).epsilon(1e-4));
+    CHECK(pair.step_limit().stability_bound_by == "bond dashpot of left - right");
+  };
+  check(Frozen<1>{});
+  check(Mobile{});
+}
+
 // ---- Nets of bonds in space: KV-4, faces, limits, threads -------------------------------------------------------------------------
 
 namespace {
@@ -386,13 +399,13 @@ TEST_CASE("the stiffness bound is where it ends: a ring is stable at 0.95 of it,
   auto ring = zigzag({{.stiffness = 100.0, .damping = 0.0}});
   const auto limit = ring.step_limit();
   CHECK(limit.stable_time_step == doctest::Approx(2.0 / std::sqrt(4.0 * 100.0)).epsilon(1e-14));
-  CHECK(limit.stability_bound_by == "bond stiffness of net");
+  CHECK(limit.stability_bound_by == "bond stiffness of net - net");
   double largest = 0.0;
   ring.every(limit.time_step, [&](const auto& scene) { largest = std::max(largest, largest_displacement(scene)); });
   ring.run({.until = 10000.0 * limit.time_step, .time_step = 0.95 * limit.time_step});
   CHECK(largest <= 1e-3 / std::sqrt(1.0 - 0.95 * 0.95) * 1.01);  // shadow energy
 
-  CHECK_THROWS_WITH_AS(zigzag({{.stiffness = 100.0, .damping = 0.0}}).run({.until = 1e3, .time_step = 0.101}), "scene: time_step must be <= 0.1 s, the bound of bond stiffness of net, got 0.101",
+  CHECK_THROWS_WITH_AS(zigzag({{.stiffness = 100.0, .damping = 0.0}}).run({.until = 1e3, .time_step = 0.101}), "scene: time_step must be <= 0.1 s, the bound of bond stiffness of net - net, got 0.101",
                        ParameterError);
 
   auto careless = zigzag({{.stiffness = 100.0, .damping = 0.0}, 0.5});
@@ -426,12 +439,32 @@ TEST_CASE("the dashpot bound is where it ends") {
   kick(ring);
   const auto limit = ring.step_limit();
   CHECK(limit.stable_time_step == doctest::Approx(2.0 / 400.0).epsilon(1e-14));
-  CHECK(limit.stability_bound_by == "bond dashpot of net");
+  CHECK(limit.stability_bound_by == "bond dashpot of net - net");
   ring.run({.until = 400.0 * limit.time_step, .time_step = 0.95 * limit.time_step});
   CHECK(ring.group<Net>().get<field::Velocity>()[0].norm() < 1e-12);
   auto careless = zigzag({dashpot, 0.5});
   kick(careless);
   CHECK_THROWS_AS(careless.run({.until = 1e6, .time_step = 1.05 * limit.time_step}), SimulationError);
+}
+
+TEST_CASE("a bound of bonds names the groups that they join, and of several items between the same two that which pulls hardest") {
+  const Beads beads{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  const auto named = [&](const bond::KelvinVoigt& second, const bond::KelvinVoigt& third) {
+    auto mesh = scene<Leapfrog>(Box<3>::unbounded(), group<Net>("net", Mobile{}, Points<3>{beads}, 1.0), group<Right>("post", Frozen<3>{}, Points<3>{{Vector<3>(2.0, 0.0, 0.0)}}, 1.0),
+                                bonds<Net, Net>(bond::Harmonic{.stiffness = 10.0}, {{0, 1}, {0, 2}}), bonds<Net, Net>(second, {{1, 2}}), bonds<Net, Right>(third, {{1, 0}}));
+    const std::string name = mesh.step_limit().stability_bound_by;
+    CHECK_THROWS_WITH_AS(mesh.run({.until = 1e3, .time_step = 100.0}), doctest::Contains(("s, the bound of " + name + ", got 100").c_str()), ParameterError);
+    return name;
+  };
+  CHECK(named({.stiffness = 1.0, .damping = 0.0}, {.stiffness = 1.0, .damping = 0.0}) == "bond stiffness of net - net (number 1 of 2)");
+  CHECK(named({.stiffness = 25.0, .damping = 0.0}, {.stiffness = 1.0, .damping = 0.0}) == "bond stiffness of net - net (number 2 of 2)");
+  CHECK(named({.stiffness = 1.0, .damping = 0.0}, {.stiffness = 60.0, .damping = 0.0}) == "bond stiffness of net - post");
+  CHECK(named({.stiffness = 1.0, .damping = 30.0}, {.stiffness = 1.0, .damping = 0.0}) == "bond dashpot of net - net (number 2 of 2)");
+  CHECK(named({.stiffness = 1.0, .damping = 30.0}, {.stiffness = 1.0, .damping = 70.0}) == "bond dashpot of net - post");
+
+  auto pulled = scene<Leapfrog>(Box<3>::unbounded(), group<Net>("net", Mobile{}, Points<3>{beads}, 1.0), bonds<Net, Net>(bond::Harmonic{.stiffness = 1.0}, {{0, 1}, {0, 2}}),
+                                forced_by<Net>(forcing::Drag{.coefficient = 100.0}));
+  CHECK(pulled.step_limit().stability_bound_by == "drag on net");  // springs without dashpots
 }
 
 TEST_CASE("spring and dashpot together: stable at 0.95 of the bound, and its 1.5-fold blows up") {  // true: (omega dt/2)^2 + lambda dt/2 < 1
@@ -546,7 +579,7 @@ double error_at_5(auto scene, double time_step) {
 
 TEST_CASE("sub-stepped bonds: the step of the scene follows the soft bonds, the number of sub-steps the stiff ones") {
   auto soft = substepped(0);
-  CHECK(soft.step_limit().bound_by == "bond stiffness of soft");
+  CHECK(soft.step_limit().bound_by == "bond stiffness of soft - soft");
   const auto report = soft.run({.until = 1.0, .time_step = 0.1});
   CHECK(report.limit.stable_time_step == doctest::Approx(1.0).epsilon(1e-12));  // 2/sqrt(4 k/m) of the soft bonds
   const double bound = 2.0 / std::sqrt(2.0 * stiff_stiffness);

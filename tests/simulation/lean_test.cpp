@@ -128,7 +128,7 @@ TEST_CASE("a bond-only scene has no density, no neighbour list and no ghosts; a 
   const std::string text = describe(scene);
   CHECK(text.find("no neighbour lists, no ghosts") != std::string::npos);
   CHECK(text.find("density") == std::string::npos);
-  CHECK(text.find("bound by bond stiffness") != std::string::npos);
+  CHECK(text.find("bound by bond stiffness of chain - chain\n") != std::string::npos);
 }
 
 TEST_CASE("an isothermal 2D fluid stores two components and no energy; mass and viscosity are constants of the group") {
