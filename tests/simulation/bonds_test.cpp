@@ -261,7 +261,7 @@ double largest_displacement(const auto& scene) {
 
 }  // namespace
 
-TEST_CASE("KV-4: a net of springs and dashpots at random, in a moving frame: momentum and angular momentum are kept, energy only falls") {
+TEST_CASE("KV-4: a net of springs and dashpots at random, in frames moving at random: momentum and angular momentum are kept, energy only falls") {
   test::RandomVectors random;
   Beads beads;
   std::vector<Bond> list;
@@ -271,25 +271,27 @@ TEST_CASE("KV-4: a net of springs and dashpots at random, in a moving frame: mom
       if ((k + other) % 3 != 0) list.push_back({k, other, 0.5 + 0.02 * (k + other)});
   }
   const Modest law{{.stiffness = 100.0, .damping = 0.5}};
-  auto tangle = net(beads, list, law);
-  const Vector<3> frame(30.0, -20.0, 10.0);
-  tangle.group<Net>().set<field::Velocity>([&](const auto&) { return Vector<3>(frame + random.vector(2.0)); });
   const double step = 0.02 * std::sqrt(0.5 / 100.0);
-  Vector<3> drift = Vector<3>::Zero();  // mean velocity; what the net loses does not depend on it
-  for (const auto& v : tangle.group<Net>().get<field::Velocity>()) drift += v / 12.0;
-  const Invariants start = invariants(tangle, list, law, drift);
-  double before = start.energy;
-  int rises = 0;
-  tangle.every(step, [&](const auto& scene) {
-    const Invariants now = invariants(scene, list, law, drift);
-    rises += now.energy > before;
-    before = now.energy;
-    CHECK((now.momentum - start.momentum).norm() <= 1e-12 * start.momentum.norm());
-    CHECK((now.spin - start.spin).norm() <= 1e-11 * start.spin.norm());
-  });
-  tangle.run({.until = 2.0, .time_step = step});
-  CHECK(rises == 0);
-  CHECK(before < 0.7 * start.energy);
+  for (int run = 0; run < 3; ++run) {
+    auto tangle = net(beads, list, law);
+    const Vector<3> frame = random.vector(30.0);
+    tangle.group<Net>().set<field::Velocity>([&](const auto&) { return Vector<3>(frame + random.vector(2.0)); });
+    Vector<3> drift = Vector<3>::Zero();  // mean velocity; what the net loses does not depend on it
+    for (const auto& v : tangle.group<Net>().get<field::Velocity>()) drift += v / 12.0;
+    const Invariants start = invariants(tangle, list, law, drift);
+    double before = start.energy;
+    int rises = 0;
+    tangle.every(step, [&](const auto& scene) {
+      const Invariants now = invariants(scene, list, law, drift);
+      rises += now.energy > before;
+      before = now.energy;
+      CHECK((now.momentum - start.momentum).norm() <= 1e-12 * start.momentum.norm());
+      CHECK((now.spin - start.spin).norm() <= 1e-12 * start.spin.norm());
+    });
+    tangle.run({.until = 2.0, .time_step = step});
+    CHECK(rises == 0);
+    CHECK(before < 0.7 * start.energy);
+  }
 }
 
 TEST_CASE("KV-4: rigid rotation is free of damping: 1 rad/s with k = 1e4 N/m keeps 0.25 J and 0.5 kg m^2/s") {
