@@ -198,6 +198,26 @@ TEST_CASE("a dashpot alone, k = 0: beads that fly apart stop as exp(-c t/m) afte
   check(Mobile{});
 }
 
+TEST_CASE("two beads of unequal mass: the lighter one sets the bound of the step, at most that of the reduced mass, whichever end it is") {
+  const auto bound = [](double left, double right, const bond::KelvinVoigt& law) {
+    auto pair = scene<Leapfrog>(Box<1>::unbounded(), group<Left>("left", Mobile{}, Points<1>{{Vector<1>(0.0)}}, left),
+                                group<Right>("right", Mobile{}, Points<1>{{Vector<1>(rest_length)}}, right), bonds<Left, Right>(law, {{0, 0}}));
+    const double dt = pair.step_limit().stable_time_step;
+    CHECK_THROWS_WITH_AS(pair.run({.until = 1.0, .time_step = 1.01 * dt}), doctest::Contains("left - right"), ParameterError);
+    return dt;
+  };
+  for (const double heavy : {1.0, 3.0, 1e6}) {
+    const double reduced = heavy / (1.0 + heavy);  // beside 1 kg
+    const double spring = bound(1.0, heavy, {.stiffness = 9.0, .damping = 0.0}), dashpot = bound(1.0, heavy, {.stiffness = 0.0, .damping = 20.0});
+    CHECK(spring == doctest::Approx(2.0 / std::sqrt(2.0 * 9.0)).epsilon(1e-12));
+    CHECK(dashpot == doctest::Approx(2.0 / (2.0 * 20.0)).epsilon(1e-12));
+    CHECK(spring <= 2.0 / std::sqrt(9.0 / reduced) * (1.0 + 1e-12));  // sheet 06, section 6
+    CHECK(dashpot <= 2.0 * reduced / 20.0 * (1.0 + 1e-12));
+    CHECK(bound(heavy, 1.0, {.stiffness = 9.0, .damping = 0.0}) == spring);
+    CHECK(bound(heavy, 1.0, {.stiffness = 0.0, .damping = 20.0}) == dashpot);
+  }
+}
+
 // ---- Nets of bonds in space: KV-4, faces, limits, threads -------------------------------------------------------------------------
 
 namespace {
