@@ -1,4 +1,5 @@
 // A scene holds what its laws name, and nothing else: columns, records and sweeps of reference scenes (sheet 06, section 7).
+#include <atomic>
 #include <string>
 #include <type_traits>
 #include <doctest/doctest.h>
@@ -79,6 +80,13 @@ struct Arrhenius {
   [[nodiscard]] auto viscosity(const auto& temperature) const { return c1 * exp(c2 / temperature); }
 };
 void validate(const Arrhenius&) {}
+struct CountedArrhenius : Arrhenius {
+  static inline std::atomic<long> evaluations = 0;
+  [[nodiscard]] auto viscosity(const auto& temperature) const {
+    ++evaluations;
+    return Arrhenius::viscosity(temperature);
+  }
+};
 struct Thinning {
   double mu;  // [Pa s]
   [[nodiscard]] auto apparent_viscosity(const auto& shear_rate) const { return mu / (1.0 + shear_rate); }
@@ -100,6 +108,11 @@ auto slabs() {  // HX: two phases at rest
   return scene<Integrator>(box, group<Water>("liquid", Stationary{}, row(10, 0.5), 1.0), group<Solid>("gas", Stationary{}, row(10, 0.4), 1.0), group<Wall>("face", Frozen<2>{}, row(10, 0.3), 1.0),
                            interaction<Water, Water>(conduction), interaction<Water, Solid>(conduction), interaction<Solid, Solid>(conduction), interaction<Solid, Wall>(conduction),
                            material<Water>(Caloric{4000.0}, Conductor{0.6}, Rigid{1000.0}), material<Solid, Wall>(Caloric{1000.0}, Conductor{0.02}, Rigid{1.0}));
+}
+template <class Integrator, class Viscosity>
+auto channel_of_given_temperature(const Viscosity& viscosity, const geometry::Points<2>& wall) {  // VISC-2
+  return scene<Integrator>(box, group<Water>("water", Mobile{}, row(10, 0.5), 0.01), group<Wall>("wall", Frozen<2>{}, wall, 0.01), interaction<Water, Water>(flow),
+                           interaction<Water, Wall>(flow), material<Water, Wall>(tait, viscosity));
 }
 template <class Integrator>
 auto warm_channel() {  // VISC-3: the temperature is conducted, the viscosity follows it
@@ -128,7 +141,7 @@ TEST_CASE("a bond-only scene has no density, no neighbour list and no ghosts; a 
   const std::string text = describe(scene);
   CHECK(text.find("no neighbour lists, no ghosts") != std::string::npos);
   CHECK(text.find("density") == std::string::npos);
-  CHECK(text.find("bound by bond stiffness") != std::string::npos);
+  CHECK(text.find("bound by bond stiffness of chain - chain\n") != std::string::npos);
 }
 
 TEST_CASE("an isothermal 2D fluid stores two components and no energy; mass and viscosity are constants of the group") {
@@ -221,6 +234,33 @@ TEST_CASE("HX: heat between bodies at rest needs position and energy; no velocit
   scene.run({.until = 1.0, .time_step = 0.01});
   CHECK(scene.engine().list_builds() == 1);  // nothing moves
   CHECK(GroupIn<Slabs, Water>::Columns::bytes_per_particle == 32);
+}
+
+TEST_CASE("VISC-2: a channel of given temperature adds that column and shows neighbours the viscosity: no energy, no rate of it, no conduction; once per particle and step") {
+  using Channel = decltype(channel_of_given_temperature<integrator::LammpsVerlet>(Arrhenius{1.83e-4, 1879.9}, row(10, 0.4)));
+  static_assert(std::is_same_v<LayoutIn<Channel, Water>::columns, Fields<Position, Velocity, Acceleration, Density, Temperature, DensityRate>>);
+  static_assert(std::is_same_v<LayoutIn<Channel, Water>::record, Fields<Position, Velocity, Density, PressureTerm, DynamicViscosity>>);
+  static_assert(std::is_same_v<LayoutIn<Channel, Water>::derived, Fields<PressureTerm, DynamicViscosity>>);
+  static_assert(std::is_same_v<LayoutIn<Channel, Water>::constants, Fields<Mass>>);
+  static_assert(std::is_same_v<LayoutIn<Channel, Water>::writes, Fields<Acceleration, DensityRate>>);
+  static_assert(std::is_same_v<LayoutIn<Channel, Wall>::columns, Fields<Position, Density, Temperature>>);
+  static_assert(GroupIn<Channel, Water>::Columns::bytes_per_particle == 3 * 16 + 3 * 8);
+  using Extrapolated = decltype(channel_of_given_temperature<integrator::ExtrapolatedVerlet>(Arrhenius{1.83e-4, 1879.9}, row(10, 0.4)));
+  static_assert(std::is_same_v<LayoutIn<Extrapolated, Water>::columns, Fields<Position, Velocity, Acceleration, Density, Temperature, DensityRate, Previous<DensityRate>>>);
+
+  const auto evaluations_of = [](std::uint64_t steps, const geometry::Points<2>& wall) {
+    auto scene = channel_of_given_temperature<integrator::LammpsVerlet>(CountedArrhenius{{1.83e-7, 1879.9}}, wall);
+    scene.engine().for_each_group([](auto& g) {
+      g.template set<Density>([](const auto&) { return 1.0; });
+      g.template set<Temperature>([](const auto&) { return 300.0; });
+    });
+    CountedArrhenius::evaluations = 0;
+    scene.run({.until = 1e-3 * static_cast<double>(steps), .time_step = 1e-3});
+    CHECK(scene.step() == steps);
+    return CountedArrhenius::evaluations.load();
+  };
+  CHECK(evaluations_of(90, row(10, 0.4)) - evaluations_of(30, row(10, 0.4)) == 60 * 10);
+  CHECK(evaluations_of(90, geometry::merge(row(10, 0.4), row(10, 0.3))) - evaluations_of(30, geometry::merge(row(10, 0.4), row(10, 0.3))) == 60 * 10);  // more pairs
 }
 
 TEST_CASE("VISC-3: a channel whose viscosity follows a conducted temperature: flow and conduction are one sweep, temperature and viscosity no columns") {

@@ -89,7 +89,7 @@ TEST_CASE("bonds and a plane bound the step together, by the larger share, and w
   CHECK(apart.step_limit().stable_time_step == doctest::Approx(2.0 / std::sqrt(2.0 * 10.0 / mass)).epsilon(1e-12));
   auto touching = pair(0.01);
   CHECK(touching.step_limit().stable_time_step == doctest::Approx(2.0 / std::sqrt((2.0 * 10.0 + 4.0) / mass)).epsilon(1e-12));
-  CHECK(touching.step_limit().stability_bound_by == "bond stiffness of beads");
+  CHECK(touching.step_limit().stability_bound_by == "bond stiffness of beads - beads");
   auto pressed = pair(0.5);
   CHECK(pressed.step_limit().stable_time_step == doctest::Approx(2.0 / std::sqrt((2.0 * 10.0 + 200.0) / mass)).epsilon(1e-12));
   CHECK(pressed.step_limit().stability_bound_by == "stiffness of a forcing on beads");

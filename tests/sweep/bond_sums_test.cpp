@@ -212,6 +212,18 @@ TEST_CASE("KV-4: spring and dashpot pull the two ends of a bond alike, exactly, 
     CHECK((forces[1] - forces[1].dot(along) * along).norm() <= 1e-12 * forces[1].norm());  // no torque
   }
 }
+TEST_CASE("a Kelvin-Voigt bond without damping pulls exactly as a spring, which looks at no velocity") {
+  using Still = particles::Records<3, Fields<field::Position>>;
+  using Moving = particles::Records<3, Fields<field::Position, field::Velocity>>;
+  static_assert(!bond::UsesVelocity<bond::Harmonic> && bond::UsesVelocity<bond::KelvinVoigt>);
+  const std::vector<Bond> list{{0, 1, 0.1}, {0, 2, 0.4}, {1, 2, 0.3}, {3, 4, 0.0}, {2, 4, 0.2}, {0, 5, 0.9}, {0, 6, 0.8}};
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const auto group = at_random<3>(7, seed);
+    const auto spring = in_packs<3, false, Still, Still>(group, group, true, false, list, Blocks(7), bond::Harmonic{.stiffness = 7.0});
+    CHECK(in_packs<3, false, Moving, Moving>(group, group, true, false, list, Blocks(7), bond::KelvinVoigt{.stiffness = 7.0, .damping = 0.0}) == spring);
+    CHECK(in_packs<3, false, Moving, Moving>(group, group, true, false, list, Blocks(7), bond::KelvinVoigt{.stiffness = 7.0, .damping = 0.01}) != spring);
+  }
+}
 TEST_CASE("a particle without bonds feels nothing, exactly") {
   const auto group = at_random<3>(5, 1);
   const auto forces = in_packs<3, false, particles::Records<3, Fields<field::Position>>, particles::Records<3, Fields<field::Position>>>(

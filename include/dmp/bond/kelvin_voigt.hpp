@@ -6,7 +6,8 @@
 namespace dmp::bond {
 
 /// Kelvin-Voigt bond: spring and dashpot in parallel.  tension = k (r - r0) + c dr/dt [N], U = (1/2) k (r - r0)^2 [J].
-/// The dashpot acts along the bond, so rigid motion is free; it dissipates c (dr/dt)^2 >= 0 [W].
+/// The dashpot acts along the bond, so rigid motion is free; it dissipates c (dr/dt)^2 >= 0 [W]. k = 0 is a dashpot alone; c = 0 is a
+/// spring alone, whose forces Harmonic finds too, without loading velocities.
 /// M. Sahputra, A. Alexiadis, M. J. Adams, ChemEngineering 4 (2020) 30, doi:10.3390/chemengineering4020030.
 struct KelvinVoigt {
   Required<double> stiffness;  ///< k [N/m], >= 0

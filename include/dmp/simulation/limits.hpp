@@ -72,6 +72,56 @@ template <class Integrator, class Engine, class G>
 
 enum class BondKind { all, slow, fast };  ///< fast: the sub-stepped ones
 
+/// Calls function(item, stiffness, damping, list) for every item whose bonds end in group g: a particle has omega^2 <= `stiffness` [1/s^2]
+/// and lambda <= `damping` [1/s] for each unit of weight of its bonds in `list`.
+template <class Engine, class G, class Function>
+void for_each_bonds_of(const Engine& engine, const G& g, BondKind kind, Function&& function) {
+  engine.for_each_item([&](const auto& active) {
+    using I = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_bonds<I>) {
+      if (kind == (I::substepped ? BondKind::slow : BondKind::fast)) return;
+      const auto call = [&]<class Partner>(const Partner&, const neighbours::BondList& list) {
+        const double per_mass = (particles::is_mobile<typename Partner::Mobility> ? 2.0 : 1.0) / g.mass;
+        double damping = 0.0;
+        if constexpr (bond::UsesVelocity<decltype(I::law)>) damping = active.item.law.largest_damping() * per_mass;
+        function(active.item, active.item.law.largest_stiffness() * per_mass, damping, list);
+      };
+      if constexpr (std::is_same_v<typename G::Tag, typename I::A>) call(engine.template group<typename I::B>(), active.of_a);
+      else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) call(engine.template group<typename I::A>(), active.of_b);
+    }
+  });
+}
+
+/// The two groups that bonds join; and which item it is, in the order of declaration, where several join the same two.
+template <class Engine, class I>
+[[nodiscard]] std::string name_of_bonds(const Engine& engine, const I& item) {
+  int number = 0, count = 0;
+  engine.for_each_item([&](const auto& active) {
+    using Other = std::remove_cvref_t<decltype(active.item)>;
+    if constexpr (is_bonds<Other>)
+      if constexpr (std::is_same_v<typename Other::A, typename I::A> && std::is_same_v<typename Other::B, typename I::B>) {
+        ++count;
+        if (static_cast<const void*>(&active.item) == &item) number = count;
+      }
+  });
+  const std::string name = engine.template group<typename I::A>().name + " - " + engine.template group<typename I::B>().name;
+  return count == 1 ? name : name + " (number " + std::to_string(number) + " of " + std::to_string(count) + ")";
+}
+
+/// The bonds that contribute most to lambda or omega^2 of particle i.
+template <class Engine, class G>
+[[nodiscard]] std::string binding_bonds(const Engine& engine, const G& g, BondKind kind, std::size_t i, bool by_dashpot) {
+  std::string name;
+  double most = 0.0;
+  for_each_bonds_of(engine, g, kind, [&](const auto& item, double stiffness, double damping, const neighbours::BondList& list) {
+    const double share = (by_dashpot ? damping : stiffness) * list.sum_of_weights(i);
+    if (share <= most) return;
+    most = share;
+    name = name_of_bonds(engine, item);
+  });
+  return name;
+}
+
 /// What bonds and forcings do to the particles of a group: omega^2 <= sum of f k/m and lambda <= sum of f c/m over the bonds of one
 /// particle, plus stiffness/m and damping rates of forcings (Gershgorin's circles of the stiffness matrix); f = 2, or 1 where the partner
 /// cannot move. Spring and dashpot together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1.
@@ -81,25 +131,16 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, s
     std::vector<double> stiffness, dashpot;  // omega^2 and lambda of each particle; empty without bonds
     std::vector<double> forced;              // omega^2 of forcings; empty without any that have a stiffness
     double drag = 0.0;
+    for_each_bonds_of(engine, g, kind, [&](const auto&, double omega_squared, double lambda, const neighbours::BondList& list) {
+      stiffness.resize(g.size(), 0.0);
+      dashpot.resize(g.size(), 0.0);
+      for (std::size_t i = 0; i < g.size(); ++i) {
+        stiffness[i] += omega_squared * list.sum_of_weights(i);
+        dashpot[i] += lambda * list.sum_of_weights(i);
+      }
+    });
     engine.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_bonds<I>) {
-        if (kind == (I::substepped ? BondKind::slow : BondKind::fast)) return;
-        const auto add = [&]<class Partner>(const Partner&, const neighbours::BondList& list) {
-          const double per_mass = (particles::is_mobile<typename Partner::Mobility> ? 2.0 : 1.0) / g.mass;
-          double damping = 0.0;
-          if constexpr (bond::UsesVelocity<decltype(active.item.law)>) damping = active.item.law.largest_damping();
-          stiffness.resize(g.size(), 0.0);
-          dashpot.resize(g.size(), 0.0);
-          for (std::size_t i = 0; i < g.size(); ++i) {
-            const double bonds = list.sum_of_weights(i) * per_mass;
-            stiffness[i] += active.item.law.largest_stiffness() * bonds;
-            dashpot[i] += damping * bonds;
-          }
-        };
-        if constexpr (std::is_same_v<typename G::Tag, typename I::A>) add(engine.template group<typename I::B>(), active.of_a);
-        else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) add(engine.template group<typename I::A>(), active.of_b);
-      }
       if constexpr (is_forced<I>)
         if constexpr (I::template concerns<typename G::Tag>)
           std::apply(
@@ -121,7 +162,8 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, s
     });
     if (drag > 0.0) limit.require_below(Integrator::damping_limit / drag, "drag on " + g.name);
     double shortest = std::numeric_limits<double>::infinity();
-    const char* bound_by = "";
+    std::size_t where = 0;
+    enum { bond_dashpots, drags, bond_springs, forcing_springs } bound_by = bond_dashpots;
     for (std::size_t i = 0; i < std::max(stiffness.size(), forced.size()); ++i) {
       const double bonds = stiffness.empty() ? 0.0 : stiffness[i], forcings = forced.empty() ? 0.0 : forced[i];
       const double damping = dashpot.empty() ? 0.0 : dashpot[i], per_damping = (damping + drag) / Integrator::damping_limit;
@@ -131,9 +173,19 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, s
       const double bound = springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
       if (bound >= shortest) continue;
       shortest = bound;
-      bound_by = !springs || half >= 0.5 ? "bond dashpot of " : forcings > bonds ? "stiffness of a forcing on " : "bond stiffness of ";
+      where = i;
+      if (!springs || half >= 0.5) bound_by = damping >= drag ? bond_dashpots : drags;
+      else bound_by = bonds >= forcings ? bond_springs : forcing_springs;
     }
-    if (shortest < std::numeric_limits<double>::infinity()) limit.require_below(shortest, bound_by + g.name);
+    if (shortest == std::numeric_limits<double>::infinity()) return;
+    std::string law;
+    switch (bound_by) {
+      case bond_dashpots: law = "bond dashpot of " + binding_bonds(engine, g, kind, where, true); break;
+      case bond_springs: law = "bond stiffness of " + binding_bonds(engine, g, kind, where, false); break;
+      case drags: law = "drag on " + g.name; break;
+      case forcing_springs: law = "stiffness of a forcing on " + g.name; break;
+    }
+    limit.require_below(shortest, law);
   }
 }
 
