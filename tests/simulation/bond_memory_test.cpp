@@ -210,7 +210,7 @@ void for_each_memory(neighbours::BondList& list, std::size_t particles, auto&& f
     const auto entries = list.of(i);
     const auto memory = list.memory_of(i);
     for (std::size_t k = 0; k < entries.size; ++k)
-      if (entries.rest_length[k] >= 0.0) function(static_cast<std::uint32_t>(i), entries.partner[k], memory.memory[k], memory.length[k]);
+      if (entries.rest_length[k] >= 0.0) function(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(list.partner_of(i, k)), memory.memory[k], memory.length[k]);
   }
 }
 

@@ -143,6 +143,11 @@ class BondList {
     }
     return result;
   }
+  /// Row of the partner of entry k of particle i; and whether it lists a bond within a block, which nobody else does.
+  [[nodiscard]] std::size_t partner_of(std::size_t i, std::size_t k) const noexcept { return partner_[offset_[i] + k] / strides_.records; }
+  [[nodiscard]] bool is_listed_once(std::size_t i, std::size_t k) const noexcept {
+    return reaction_[offset_[i] + k] / strides_.sums == partner_of(i, k);
+  }
   /// Entries that are bonds.
   [[nodiscard]] std::size_t whole() const noexcept {
     return static_cast<std::size_t>(std::count_if(rest_length_.begin(), rest_length_.end(), [](double length) { return length >= 0.0; }));

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <type_traits>
 #include <vector>
+#include <Eigen/Eigenvalues>
 #include <dmp/bond/concept.hpp>
 #include <dmp/core/require.hpp>
 #include <dmp/core/threads.hpp>
@@ -72,19 +73,19 @@ template <class Integrator, class Engine, class G>
 
 enum class BondKind { all, slow, fast };  ///< fast: the sub-stepped ones
 
-/// Calls function(item, stiffness, damping, list) for every item whose bonds end in group g: a particle has omega^2 <= `stiffness` [1/s^2]
-/// and lambda <= `damping` [1/s] for each unit of weight of its bonds in `list`.
+/// Calls function(item, stiffness, damping, list, partners) for every item whose bonds end in group g. Along each of its bonds in `list`, for
+/// each unit of weight, a particle has omega^2 <= `stiffness` [1/s^2] and lambda <= `damping` [1/s].
 template <class Engine, class G, class Function>
 void for_each_bonds_of(const Engine& engine, const G& g, BondKind kind, Function&& function) {
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_bonds<I>) {
       if (kind == (I::substepped ? BondKind::slow : BondKind::fast)) return;
-      const auto call = [&]<class Partner>(const Partner&, const neighbours::BondList& list) {
+      const auto call = [&]<class Partner>(const Partner& partners, const neighbours::BondList& list) {
         const double per_mass = (particles::is_mobile<typename Partner::Mobility> ? 2.0 : 1.0) / g.mass;
         double damping = 0.0;
         if constexpr (bond::UsesVelocity<decltype(I::law)>) damping = active.item.law.largest_damping() * per_mass;
-        function(active.item, active.item.law.largest_stiffness() * per_mass, damping, list);
+        function(active.item, active.item.law.largest_stiffness() * per_mass, damping, list, partners);
       };
       if constexpr (std::is_same_v<typename G::Tag, typename I::A>) call(engine.template group<typename I::B>(), active.of_a);
       else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) call(engine.template group<typename I::A>(), active.of_b);
@@ -113,7 +114,7 @@ template <class Engine, class G>
 [[nodiscard]] std::string binding_bonds(const Engine& engine, const G& g, BondKind kind, std::size_t i, bool by_dashpot) {
   std::string name;
   double most = 0.0;
-  for_each_bonds_of(engine, g, kind, [&](const auto& item, double stiffness, double damping, const neighbours::BondList& list) {
+  for_each_bonds_of(engine, g, kind, [&](const auto& item, double stiffness, double damping, const neighbours::BondList& list, const auto&) {
     const double share = (by_dashpot ? damping : stiffness) * list.sum_of_weights(i);
     if (share <= most) return;
     most = share;
@@ -122,23 +123,71 @@ template <class Engine, class G>
   return name;
 }
 
-/// What bonds and forcings do to the particles of a group: omega^2 <= sum of f k/m and lambda <= sum of f c/m over the bonds of one
-/// particle, plus stiffness/m and damping rates of forcings (Gershgorin's circles of the stiffness matrix); f = 2, or 1 where the partner
-/// cannot move. Spring and dashpot together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1.
+/// How bonds hold a particle, per mass: springs [1/s^2] and dashpots [1/s].
+template <int Dim>
+struct Hold {
+  Eigen::Matrix<double, Dim, Dim> springs = Eigen::Matrix<double, Dim, Dim>::Zero(), dashpots = springs;
+};
+template <int Dim>
+[[nodiscard]] double largest_eigenvalue(const Eigen::Matrix<double, Dim, Dim>& symmetric) {
+  if constexpr (Dim == 1) return symmetric(0, 0);
+  else return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>().computeDirect(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[Dim - 1];
+}
+
+/// Adds what the bonds of one item do to the particles of a group as they stand now: f k/m n n^T, f c/m n n^T, and across the bond at most
+/// k (1 - r0/r) of it, from its tension.
+template <class Engine, class Item, class G, class Partners>
+void add_hold(const Engine& engine, const Item&, double stiffness, double damping, const neighbours::BondList& list, const G& g,
+              const Partners& partners, std::vector<Hold<G::Dim>>& hold) {
+  constexpr int Dim = G::Dim;
+  constexpr bool same = std::is_same_v<G, Partners>;
+  for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
+    for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
+      const auto bonds = list.of(i);
+      for (std::size_t k = 0; k < bonds.size; ++k) {
+        if (bonds.rest_length[k] < 0.0) continue;
+        const std::size_t j = list.partner_of(i, k);
+        const Vector<Dim> apart = neighbours::minimum_image<Dim>(g.positions()[i] - partners.positions()[j], engine.box());
+        const double squared = apart.squaredNorm(), weight = bonds.weight[k * bonds.weight_step];
+        if (!(squared > 0.0)) continue;  // no direction
+        const Eigen::Matrix<double, Dim, Dim> along = weight / squared * apart * apart.transpose();
+        double across = 1.0;
+        if constexpr (!bond::HasMemory<decltype(Item::law)>) across = std::max(0.0, 1.0 - bonds.rest_length[k] / std::sqrt(squared));
+        const Hold<Dim> one{stiffness * ((1.0 - across) * along + across * weight * Eigen::Matrix<double, Dim, Dim>::Identity()), damping * along};
+        const auto add = [&one](Hold<Dim>& to) {
+          to.springs += one.springs;
+          to.dashpots += one.dashpots;
+        };
+        add(hold[i]);
+        if (same && list.is_listed_once(i, k)) add(hold[j]);  // in the same block
+      }
+    }
+  });
+}
+
+/// What bonds and forcings do to the particles of a group: omega^2 <= lambda_max(sum of f k/m n n^T) and lambda <= lambda_max(sum of
+/// f c/m n n^T) over the bonds of one particle, n their directions, plus stiffness/m and damping rates of forcings; f = 2, or 1 where the
+/// partner cannot move. From (u_i - u_j)^2 <= 2 (u_i^2 + u_j^2) along each bond; the cubic lattice reaches it. Spring and dashpot together
+/// are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1.
 template <class Integrator, class Engine, class G>
 void limit_group(const Engine& engine, const G& g, double time, BondKind kind, sweep::StepLimit& limit) {
   if constexpr (particles::is_mobile<typename G::Mobility>) {
-    std::vector<double> stiffness, dashpot;  // omega^2 and lambda of each particle; empty without bonds
-    std::vector<double> forced;              // omega^2 of forcings; empty without any that have a stiffness
+    std::vector<Hold<G::Dim>> hold;  // empty without bonds
+    std::vector<double> forced;      // omega^2 of forcings; empty without any that have a stiffness
     double drag = 0.0;
-    for_each_bonds_of(engine, g, kind, [&](const auto&, double omega_squared, double lambda, const neighbours::BondList& list) {
-      stiffness.resize(g.size(), 0.0);
-      dashpot.resize(g.size(), 0.0);
-      for (std::size_t i = 0; i < g.size(); ++i) {
-        stiffness[i] += omega_squared * list.sum_of_weights(i);
-        dashpot[i] += lambda * list.sum_of_weights(i);
-      }
-    });
+    for_each_bonds_of(engine, g, kind,
+                      [&](const auto& item, double stiffness, double damping, const neighbours::BondList& list, const auto& partners) {
+                        hold.resize(g.size());
+                        add_hold(engine, item, stiffness, damping, list, g, partners, hold);
+                      });
+    std::vector<double> stiffness(hold.size()), dashpot(hold.size());  // omega^2 and lambda of bonds
+    if (!hold.empty())
+      for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          stiffness[i] = largest_eigenvalue<G::Dim>(hold[i].springs);
+          dashpot[i] = hold[i].dashpots.isZero(0.0) ? 0.0 : largest_eigenvalue<G::Dim>(hold[i].dashpots);
+        }
+      });
     engine.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_forced<I>)
