@@ -502,6 +502,38 @@ TEST_CASE("spring and dashpot together: stable at 0.95 of the bound, and its 1.5
   }
 }
 
+TEST_CASE("the cubic lattice of edge and diagonal springs oscillates with omega^2 = 12 k/m at most, as the bound says: beyond it blows up and is caught") {
+  // The fastest plane wave moves neighbouring layers against each other. Periodic, so that all beads are alike.
+  constexpr std::uint32_t side = 4;
+  constexpr double k = 100.0;
+  Beads beads;
+  std::vector<Bond> list;
+  const auto row = [](std::uint32_t x, std::uint32_t y, std::uint32_t z) { return x % side + side * (y % side + side * (z % side)); };
+  for (std::uint32_t z = 0; z < side; ++z)
+    for (std::uint32_t y = 0; y < side; ++y)
+      for (std::uint32_t x = 0; x < side; ++x) {
+        beads.push_back({x + 0.5, y + 0.5, z + 0.5});
+        for (const auto& [a, b, c] : {std::array{1u, 0u, 0u}, {0u, 1u, 0u}, {0u, 0u, 1u}, {1u, 1u, 0u}, {1u, side - 1, 0u}, {1u, 0u, 1u}, {1u, 0u, side - 1}, {0u, 1u, 1u}, {0u, 1u, side - 1}})
+          list.push_back({row(x, y, z), row(x + a, y + b, z + c)});
+      }
+  const Box<3> box{.lower = {0.0, 0.0, 0.0}, .upper = {4.0, 4.0, 4.0}, .periodic = {true, true, true}};
+  const auto shaken = [&](double admitted) {
+    auto lattice = net(beads, list, {{.stiffness = k, .damping = 0.0}, admitted}, box);
+    test::RandomVectors random;
+    lattice.group<Net>().set<field::Velocity>([&](const auto&) { return random.vector(1e-6); });
+    return lattice;
+  };
+  const double bound = 2.0 / std::sqrt(12.0 * k);
+  auto lattice = shaken(1.0);
+  CHECK(lattice.step_limit().stable_time_step == doctest::Approx(bound).epsilon(1e-7));
+  lattice.run({.until = 3000.0 * bound, .time_step = 0.95 * bound});
+  double largest = 0.0;
+  for (const auto& v : lattice.group<Net>().get<field::Velocity>()) largest = std::fmax(largest, v.norm());
+  CHECK(largest < 1e-4);
+  auto careless = shaken(0.5);
+  CHECK_THROWS_AS(careless.run({.until = 3000.0 * bound, .time_step = 1.02 * bound}), SimulationError);
+}
+
 TEST_CASE("1, 2, 3 and 4 threads give the same bits for 17576 beads in four blocks and their bonds") {
   Beads beads;
   std::vector<Bond> list;

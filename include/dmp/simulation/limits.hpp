@@ -135,7 +135,7 @@ template <int Dim>
 }
 
 /// Adds what the bonds of one item do to the particles of a group as they stand now: f k/m n n^T, f c/m n n^T, and across the bond at most
-/// k (1 - r0/r) of it, from its tension.
+/// f k/m (1 - r0/r), from its tension. A bond of length zero may act in any direction.
 template <class Engine, class Item, class G, class Partners>
 void add_hold(const Engine& engine, const Item&, double stiffness, double damping, const neighbours::BondList& list, const G& g,
               const Partners& partners, std::vector<Hold<G::Dim>>& hold) {
@@ -149,11 +149,12 @@ void add_hold(const Engine& engine, const Item&, double stiffness, double dampin
         const std::size_t j = list.partner_of(i, k);
         const Vector<Dim> apart = neighbours::minimum_image<Dim>(g.positions()[i] - partners.positions()[j], engine.box());
         const double squared = apart.squaredNorm(), weight = bonds.weight[k * bonds.weight_step];
-        if (!(squared > 0.0)) continue;  // no direction
-        const Eigen::Matrix<double, Dim, Dim> along = weight / squared * apart * apart.transpose();
+        using Matrix = Eigen::Matrix<double, Dim, Dim>;
+        const Matrix all_ways = weight * Matrix::Identity(), along = squared > 0.0 ? Matrix(weight / squared * apart * apart.transpose()) : all_ways;
         double across = 1.0;
-        if constexpr (!bond::HasMemory<decltype(Item::law)>) across = std::max(0.0, 1.0 - bonds.rest_length[k] / std::sqrt(squared));
-        const Hold<Dim> one{stiffness * ((1.0 - across) * along + across * weight * Eigen::Matrix<double, Dim, Dim>::Identity()), damping * along};
+        if constexpr (!bond::HasMemory<decltype(Item::law)>)
+          across = squared > 0.0 ? std::max(0.0, 1.0 - bonds.rest_length[k] / std::sqrt(squared)) : 0.0;
+        const Hold<Dim> one{stiffness * ((1.0 - across) * along + across * all_ways), damping * along};
         const auto add = [&one](Hold<Dim>& to) {
           to.springs += one.springs;
           to.dashpots += one.dashpots;
