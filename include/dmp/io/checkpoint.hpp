@@ -66,7 +66,8 @@ class Record {
 }  // namespace detail
 
 /// Writes a checkpoint beside its place (<path>.part) and puts it there with commit(): a run that is killed before leaves the former
-/// checkpoint as it was, and perhaps that part, which the next one overwrites. `signature` says what scene this is (names, parameters, fields); only a reader with the same one accepts it.
+/// checkpoint as it was, and perhaps that part, which the next one overwrites. `signature` says what scene this is (names, parameters,
+/// fields); only a reader with the same one accepts it.
 ///   CheckpointWriter checkpoint(results / "checkpoint", signature);   checkpoint.add("position", x);   checkpoint.commit();
 class CheckpointWriter {
  public:
