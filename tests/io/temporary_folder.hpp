@@ -55,7 +55,9 @@ class SmallDisk {
 };
 
 inline void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!std::filesystem::exists(path)) const std::ofstream created(path);
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::filesystem::resize_file(path, bytes.size());  // not to nothing before, which makes ext4 wait for the disk
 }
 [[nodiscard]] inline std::string read_bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
