@@ -154,6 +154,14 @@ TEST_CASE("a scene that no law bounds needs a time step") {
   CHECK(scene.group<Solid>().positions()[0] == Vector<2>(1.0, -2.0));  // free flight, exact in binary
 }
 
+TEST_CASE("an observer of an interval however short is called once at each step") {
+  auto scene = pond({});
+  int calls = 0;
+  scene.every(1e-300, [&calls](const auto&) { ++calls; });
+  scene.run({.until = 0.005, .time_step = 0.001});
+  CHECK(calls == 6);  // the start among them
+}
+
 TEST_CASE("checkpoints: missing, truncated, foreign, and of other particle numbers") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "pond.checkpoint").string();
