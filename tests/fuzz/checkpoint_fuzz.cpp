@@ -3,34 +3,28 @@
 #include <string>
 #include <vector>
 #include <dmp/io/checkpoint.hpp>
-#include "fuzz.hpp"
+#include "fuzz/fuzz.hpp"
+#include "io/temporary_folder.hpp"
 
 namespace {
 
 constexpr const char* signature = "scene";
 
-const std::string& start() {
-  static const std::string bytes = [] {
-    const std::string path = "/tmp/dmp-fuzz-" + std::to_string(::getpid());
-    dmp::io::CheckpointWriter checkpoint(path, signature);
-    checkpoint.add("density", std::vector<double>{1.0, 2.5});
-    checkpoint.add("id", std::array<std::uint16_t, 3>{1, 2, 3});
-    checkpoint.add("none", std::vector<double>{});
-    checkpoint.commit();
-    std::string result(1000, '\0');
-    std::FILE* const file = std::fopen(path.c_str(), "rb");
-    result.resize(std::fread(result.data(), 1, result.size(), file));
-    std::fclose(file);
-    std::remove(path.c_str());
-    return result;
-  }();
-  return bytes;
+std::string start() {
+  const test::TemporaryFolder folder;
+  dmp::io::CheckpointWriter checkpoint(folder / "checkpoint", signature);
+  checkpoint.add("density", std::vector<double>{1.0, 2.5});
+  checkpoint.add("id", std::array<std::uint16_t, 3>{1, 2, 3});
+  checkpoint.add("none", std::vector<double>{});
+  checkpoint.commit();
+  return test::read_bytes(folder / "checkpoint");
 }
 
 }  // namespace
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
-  return fuzz::mutate(data, size, max_size, seed, start(), fuzz::correct_crcs);
+  static const std::string whole = start();
+  return fuzz::mutate(data, size, max_size, seed, whole, fuzz::correct_crcs);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -7,7 +7,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <vector>
 #include <dmp/io/detail/crc32.hpp>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -84,7 +83,8 @@ namespace fuzz {
 
 /// Changes an input, or, where it is far too short and now and then, begins again with `start`. `finish(data, size)` may put it right.
 template <class Finish>
-std::size_t mutate(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed, const std::string& start, const Finish& finish) {
+std::size_t mutate(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed, const std::string& start,
+                   const Finish& finish) {
   if ((size < 8 || seed % 61 == 0) && start.size() <= max_size) {
     size = start.size();
     std::memcpy(data, start.data(), size);

@@ -1,8 +1,8 @@
-// geometry::read_points: any bytes are refused with a ParameterError that names the file, or are finite points, which written again are read
-// as the same points.
+// geometry::read_points: any bytes are refused with a ParameterError that names the file, or are finite points, which written again are
+// read as the same points.
 #include <string>
 #include <dmp/geometry/point_file.hpp>
-#include "fuzz.hpp"
+#include "fuzz/fuzz.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
-// Scene::restart: any checkpoint, with CRCs put right, is refused with a CheckpointError and changes nothing, or can be run: to finite values
-// or to an error.
-#include <cstdio>
+// Scene::restart: any checkpoint, with CRCs put right, is refused with a CheckpointError and changes nothing, or can be run: to finite
+// values or to an error.
 #include <string>
 #include <dmp/dmp.hpp>
-#include "fuzz.hpp"
+#include "fuzz/fuzz.hpp"
+#include "io/temporary_folder.hpp"
 
 namespace {
 
@@ -19,33 +19,27 @@ auto small_scene() {
   const geometry::Points<2> water{.positions = {{0.1, 0.1}, {0.2, 0.1}, {0.1, 0.2}, {0.2, 0.2}}, .spacing = 0.1, .volume = 0.01};
   const geometry::Points<2> beads{.positions = {{0.5, 0.1}, {0.6, 0.1}, {0.6, 0.2}}};
   const Flow flow{.kernel = {.support_radius = 0.26}};
+  const geometry::Box<2> box{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, false}};
   return scene<integrator::ExtrapolatedVerlet>(
-      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, false}}, group<Water>("water", particles::Mobile{}, water, 0.01),
-      group<Beads>("beads", particles::Mobile{}, beads, 0.01), interaction<Water, Water>(flow), interaction<Water, Beads>(flow),
+      box, group<Water>("water", particles::Mobile{}, water, 0.01), group<Beads>("beads", particles::Mobile{}, beads, 0.01), interaction<Water, Water>(flow), interaction<Water, Beads>(flow),
       bonds<Beads, Beads>(bond::Maxwell{.stiffness = 1.0, .damping = 0.1}, {{0, 1}, {1, 2}}),
       material<Water, Beads>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
 }
 
-const std::string& start() {
-  static const std::string bytes = [] {
-    const std::string path = "/tmp/dmp-fuzz-" + std::to_string(::getpid());
-    auto scene = small_scene();
-    scene.run({.until = 1e-3});
-    scene.checkpoint(path);
-    std::string result(10000, '\0');
-    std::FILE* const file = std::fopen(path.c_str(), "rb");
-    result.resize(std::fread(result.data(), 1, result.size(), file));
-    std::fclose(file);
-    std::remove(path.c_str());
-    return result;
-  }();
-  return bytes;
+std::string start() {
+  const test::TemporaryFolder folder;
+  const std::string path = (folder / "checkpoint").string();
+  auto scene = small_scene();
+  scene.run({.until = 1e-3});
+  scene.checkpoint(path);
+  return test::read_bytes(path);
 }
 
 }  // namespace
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
-  return fuzz::mutate(data, size, max_size, seed, start(), fuzz::correct_crcs);
+  static const std::string whole = start();
+  return fuzz::mutate(data, size, max_size, seed, whole, fuzz::correct_crcs);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
