@@ -62,8 +62,9 @@ TEST_CASE("point file: whatever is not Dim finite numbers is refused with file, 
     CAPTURE(text);
     CHECK(complaint_about_file<2>(text + "\n") == start + "1: a number must stand before and after each comma, got '" + text + "'");
   }
-  CHECK(complaint_about_file<1>(std::string(200, '7') + "x") == start + "1: '" + std::string(200, '7') + "x' is not a number, got '" +
-                                                                    std::string(120, '7') + "...'");
+  const std::string longest = "'" + std::string(120, '7') + "...'";
+  CHECK(complaint_about_file<1>(std::string(200, '7') + "x") == start + "1: " + longest + " is not a number, got " + longest);
+  CHECK(complaint_about_file<1>(std::string("\0PNG\a 7", 7)) == start + "1: '?PNG?' is not a number, got '?PNG? 7'");
 }
 
 TEST_CASE("point file: a file that is missing, empty or a folder is refused by name") {

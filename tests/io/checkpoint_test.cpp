@@ -9,10 +9,12 @@
 #include <random>
 #include <span>
 #include <string>
+#include <system_error>
 #include <type_traits>
 #include <vector>
 #include <dmp/io/checkpoint.hpp>
 #include "io/temporary_folder.hpp"
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -184,7 +186,7 @@ TEST_CASE("checkpoint: a missing file, a folder, another kind of file, another v
   const test::TemporaryFolder folder;
   const auto path = folder / "checkpoint";
   CHECK(complaint_about_file(path) == where(path) + "cannot open: No such file or directory");
-  CHECK(test::contains(complaint_about_file(folder.path()), where(folder.path()) + "cannot read: "));
+  CHECK(test::contains(complaint_about_file(folder.path()), where(folder.path()) + "cannot open: "));
   test::write_bytes(path, "time [s],front [m]\n0,1\n");
   CHECK(complaint_about_file(path) == where(path) + "is not a checkpoint");
   const std::string whole = small_checkpoint(path);
@@ -197,6 +199,17 @@ TEST_CASE("checkpoint: a missing file, a folder, another kind of file, another v
   std::memcpy(other.data() + 12, &version, sizeof version);
   test::write_bytes(path, other);
   CHECK(complaint_about_file(path) == where(path) + "has format version 2, this program reads version 1");
+}
+
+TEST_CASE("checkpoint: a pipe, a device and a large file of another kind are refused at once, without waiting and without being read") {
+  const test::TemporaryFolder folder;
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK(test::contains(complaint_about_file(folder / "pipe"), where(folder / "pipe") + "cannot open: "));
+  CHECK(test::contains(complaint_about_file("/dev/zero"), where("/dev/zero") + "cannot open: "));
+  test::write_bytes(folder / "large", "PK\x03\x04 something else");
+  std::error_code no_sparse_files;
+  std::filesystem::resize_file(folder / "large", std::uintmax_t{1} << 42, no_sparse_files);
+  CHECK(complaint_about_file(folder / "large") == where(folder / "large") + "is not a checkpoint");
 }
 
 TEST_CASE("checkpoint: a section that is missing, or of elements of another size, is refused") {

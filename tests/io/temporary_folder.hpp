@@ -1,4 +1,6 @@
 #pragma once
+#include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -6,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <sys/resource.h>
 
 namespace test {
 
@@ -31,8 +34,30 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// While this lives no file grows beyond `bytes`, as on a disk that is full then: "File too large".
+class SmallDisk {
+ public:
+  explicit SmallDisk(std::size_t bytes) : former_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &former_);
+    const ::rlimit limit{.rlim_cur = bytes, .rlim_max = former_.rlim_max};
+    if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) throw std::runtime_error("cannot limit the size of files");
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  ~SmallDisk() {
+    ::setrlimit(RLIMIT_FSIZE, &former_);
+    std::signal(SIGXFSZ, former_handler_);
+  }
+
+ private:
+  void (*former_handler_)(int);
+  ::rlimit former_{};
+};
+
 inline void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!std::filesystem::exists(path)) const std::ofstream created(path);
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  std::filesystem::resize_file(path, bytes.size());  // not to nothing before, which makes ext4 wait for the disk
 }
 [[nodiscard]] inline std::string read_bytes(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -27,7 +27,7 @@ struct Motion {
   double finish(std::size_t longest_run = 3) {
     Bounds<Dim> bounds;
     for (const auto& x : points) bounds.add(x);
-    motion.build(bounds, box, reach);
+    motion.build(bounds, box, reach, points.size());
     cell.clear();
     std::vector<Run<Dim>> runs;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -174,4 +174,11 @@ TEST_CASE("particles that have got lost do not hide that others have moved; with
   CHECK_FALSE(lost.finish() <= 0.2);
   Motion<2> nobody{.points = {}, .moved = {}, .box = test::cube<2>(1.0, {true, true}), .reach = 0.1};
   CHECK(nobody.finish() == 0.0);
+}
+
+TEST_CASE("a few particles, however far apart, are followed with little memory") {
+  Motion<3> few{.points = {{0.0, 0.0, 0.0}, {0.05, 0.0, 0.0}, {1e5, 1e5, 1e5}}, .moved = test::Cloud<3>(3, Vector<3>::Zero()), .box = test::cube<3>(1e6), .reach = 0.1};
+  few.moved[1] = {0.3, 0.0, 0.0};
+  CHECK(few.finish() >= 0.3);
+  CHECK(few.motion.bytes() < 10000);
 }

@@ -154,6 +154,22 @@ TEST_CASE("a scene that no law bounds needs a time step") {
   CHECK(scene.group<Solid>().positions()[0] == Vector<2>(1.0, -2.0));  // free flight, exact in binary
 }
 
+TEST_CASE("sub-stepped bonds that need more sub-steps than anybody waits for are refused") {
+  const geometry::Points<2> two{.positions = {{0.0, 0.0}, {1.0, 0.0}}};
+  auto scene = simulation::scene<integrator::Leapfrog>(geometry::Box<2>::unbounded(), group<Solid>("body", Mobile{}, two, 1.0),
+                                                       substepped_bonds<Solid, Solid>(bond::Harmonic{.stiffness = 1e30}, {{0, 1}}));
+  CHECK_THROWS_WITH_AS(scene.run({.until = 1.0, .time_step = 1.0}),
+                       doctest::Contains("substepped_bonds: a step of 1 s must need <= 1e+06 sub-steps, got "), ParameterError);
+}
+
+TEST_CASE("an observer of an interval however short is called once at each step") {
+  auto scene = pond({});
+  int calls = 0;
+  scene.every(1e-300, [&calls](const auto&) { ++calls; });
+  scene.run({.until = 0.005, .time_step = 0.001});
+  CHECK(calls == 6);  // the start among them
+}
+
 TEST_CASE("checkpoints: missing, truncated, foreign, and of other particle numbers") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "pond.checkpoint").string();

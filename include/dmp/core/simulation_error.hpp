@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <dmp/core/require.hpp>
 
 namespace dmp {
@@ -19,6 +20,8 @@ struct SimulationError : std::runtime_error {
 
   SimulationError(const std::string& what_happened, Where location)
       : std::runtime_error(text(what_happened, location)), where(std::move(location)) {}
+  /// The same error, of which there is more to say.
+  SimulationError(const SimulationError& error, const std::string& more) : std::runtime_error(error.what() + more), where(error.where) {}
   Where where;
 
  private:

@@ -21,9 +21,16 @@ struct Line {
   std::size_t number;
 
   [[noreturn]] void reject(const std::string& rule) const {
-    constexpr std::size_t longest_quote = 120;
-    throw ParameterError("geometry::read_points: '" + std::string(path) + "', line " + std::to_string(number) + ": " + rule + ", got '" +
-                         std::string(text.substr(0, longest_quote)) + (text.size() > longest_quote ? "...'" : "'"));
+    throw ParameterError("geometry::read_points: '" + std::string(path) + "', line " + std::to_string(number) + ": " + rule + ", got " +
+                         quoted(text));
+  }
+  /// As much as can be shown of something that is perhaps no text at all.
+  [[nodiscard]] static std::string quoted(std::string_view text) {
+    constexpr std::size_t longest = 120;
+    std::string result(text.substr(0, longest));
+    for (char& letter : result)
+      if (static_cast<unsigned char>(letter) < 0x20 && letter != '\t') letter = '?';
+    return "'" + result + (text.size() > longest ? "...'" : "'");
   }
 };
 
@@ -34,8 +41,8 @@ struct Line {
   double value = 0.0;
   const auto [stop, error] = std::from_chars(begin, end, value);
   const bool number = error != std::errc::invalid_argument && stop == end;
-  if (!number) line.reject("'" + std::string(word) + "' is not a number");
-  if (error != std::errc{} || !(value - value == 0.0)) line.reject("'" + std::string(word) + "' is not a finite double");
+  if (!number) line.reject(Line::quoted(word) + " is not a number");
+  if (error != std::errc{} || !(value - value == 0.0)) line.reject(Line::quoted(word) + " is not a finite double");
   return value;
 }
 

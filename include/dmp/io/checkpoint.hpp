@@ -66,7 +66,8 @@ class Record {
 }  // namespace detail
 
 /// Writes a checkpoint beside its place (<path>.part) and puts it there with commit(): a run that is killed before leaves the former
-/// checkpoint as it was. `signature` says what scene this is (names, parameters, fields); only a reader with the same one accepts it.
+/// checkpoint as it was, and perhaps that part, which the next one overwrites. `signature` says what scene this is (names, parameters,
+/// fields); only a reader with the same one accepts it.
 ///   CheckpointWriter checkpoint(results / "checkpoint", signature);   checkpoint.add("position", x);   checkpoint.commit();
 class CheckpointWriter {
  public:
@@ -177,14 +178,21 @@ class CheckpointReader {
   [[noreturn]] void reject(const std::string& what) const { detail::reject_checkpoint(path_, what); }
 
   void load() {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path_, error);  // before opening, which would wait for the writer of a pipe
+    if (error) reject("cannot open: " + error.message());
     errno = 0;
     const std::unique_ptr<std::FILE, detail::Close> file(std::fopen(path_.c_str(), "rb"));
     if (!file) reject("cannot open: " + detail::reason(errno));
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(path_, error);
-    if (error) reject("cannot read: " + error.message());
-    bytes_.resize(static_cast<std::size_t>(size));
-    if (std::fread(bytes_.data(), 1, bytes_.size(), file.get()) != bytes_.size()) reject("cannot read: " + detail::reason(errno));
+    const auto read = [&](std::size_t wanted) {
+      const std::size_t before = bytes_.size(), more = wanted - before;
+      bytes_.resize(wanted);
+      if (std::fread(bytes_.data() + before, 1, more, file.get()) != more) reject("cannot read: " + detail::reason(errno));
+    };
+    const std::string_view magic = detail::checkpoint_magic;
+    read(std::min(static_cast<std::size_t>(size), magic.size()));
+    if (std::string_view(bytes_.data(), bytes_.size()) != magic.substr(0, bytes_.size())) reject("is not a checkpoint");
+    read(static_cast<std::size_t>(size));  // some other large file has not got here
   }
 
   /// The next `size` bytes. Lengths from the file come here before they are used for anything.
@@ -206,10 +214,7 @@ class CheckpointReader {
   }
 
   void verify_start(std::string_view signature) {
-    const std::size_t magic_size = detail::checkpoint_magic.size();
-    if (std::string_view(bytes_.data(), std::min(bytes_.size(), magic_size)) != detail::checkpoint_magic.substr(0, bytes_.size()))
-      reject("is not a checkpoint");
-    take(magic_size);
+    take(detail::checkpoint_magic.size());
     const std::size_t begin = position_;
     const auto byte_order = take_number<std::uint32_t>();
     if (byte_order == detail::swapped_byte_order) reject("was written on a machine of the other byte order");

@@ -41,10 +41,12 @@ struct Run {
 template <int Dim>
 class RelativeMotion {
  public:
-  /// Coarse cells over `bounds`, all groups together; `reach` [m]: cut-off and skin.
-  void build(const Bounds<Dim>& bounds, const geometry::Box<Dim>& box, double reach) {
+  /// Coarse cells over `bounds`, all groups together; `reach` [m]: cut-off and skin. Wider cells where these would be many more than the
+  /// `particles`.
+  void build(const Bounds<Dim>& bounds, const geometry::Box<Dim>& box, double reach, std::size_t particles) {
     cells_ = Cells<Dim>(
-        2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach, 1e6);
+        2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach,
+        std::min(4.0 * static_cast<double>(particles) + 64.0, 1e6));
     periodic_ = box.periodic;
     moved_.assign(cells_.total(), {});
     used_.assign(cells_.total(), 0.0);

@@ -286,6 +286,10 @@ template <class Integrator, class Engine>
   });
   engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, 0.0, detail::BondKind::fast, fast); });
   const double needed = std::ceil(dt / (0.9 * fast.time_step));
+  constexpr double most = 1e6;
+  if (asked == 0 && !(needed <= most))
+    throw ParameterError("substepped_bonds: a step of " + to_text(dt) + " s must need <= " + to_text(most) + " sub-steps, got " +
+                         to_text(needed) + " for the " + fast.bound_by);
   if (asked > 0 && dt / asked > fast.time_step)
     throw ParameterError("substepped_bonds: substeps must be >= " + to_text(std::ceil(dt / fast.time_step)) + " for a step of " +
                          to_text(dt) + " s, got " + std::to_string(asked));

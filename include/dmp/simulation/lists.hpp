@@ -190,8 +190,10 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
   /// The present positions are what relative motion is counted from.
   void follow_from_here() {
     neighbours::Bounds<Dim> bounds;
+    std::size_t particles = 0;
     for_each_group([&](auto& g) {
-      if constexpr (LayoutOf<decltype(g)>::has_pairs)
+      if constexpr (LayoutOf<decltype(g)>::has_pairs) {
+        particles += g.size();
         bounds.add(merge_ranges(
             g.blocks.ranges(), neighbours::Bounds<Dim>{},
             [&g](std::size_t first, std::size_t last) {
@@ -203,9 +205,10 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
               a.add(b);
               return a;
             }));
+      }
     });
     const double reach = longest_cutoff_ + skin_;
-    relative_motion_.build(bounds, this->box_, reach);
+    relative_motion_.build(bounds, this->box_, reach, particles);
     const double extent = 2.0 * ((bounds.upper - bounds.lower).maxCoeff() + 4.0 * reach);  // room for ghosts, and for moving along
     for_each_group([&](auto& g) { g.records.set_frame({0.5 * (bounds.lower + bounds.upper), extent}); });
     for_each_group([&](auto& g) {

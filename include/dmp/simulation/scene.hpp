@@ -112,7 +112,7 @@ class Scene {
         throw ParameterError("scene: time_step must be <= " + to_text(report.limit.stable_time_step) + " s, the bound of " +
                              report.limit.stability_bound_by + ", got " + to_text(first_step));
       const bool goes_on = options.time_step == 0.0 && clock_.automatic == 1 && clock_.time_step <= report.limit.stable_time_step;
-      if (!goes_on) choose_step(first_step);
+      choose_step(goes_on ? clock_.time_step : first_step);
       clock_.automatic = options.time_step == 0.0 ? 1 : 0;
       engine_.refresh_frozen();
       check_state(engine_, clock_);
@@ -202,14 +202,13 @@ class Scene {
     engine_.build_lists(true);
     write_checkpoint(path, signature(), views_of(engine_), clock_);
   }
-  /// Continues from a checkpoint of the same composition and the same particle numbers.
+  /// Continues from a checkpoint of the same composition and the same particle numbers. CheckpointError, and nothing is changed, if the
+  /// file is no such, or damaged.
   void restart(const std::string& path) {
     clock_ = read_checkpoint(path, signature(), views_of(engine_));
     for (auto& observer : observers_) observer.done = due(observer);
     engine_.build_lists(true);
     if (clock_.step == 0) engine_.start_afresh();
-    if constexpr (has_substeps)
-      if (clock_.time_step > 0.0) engine_.set_substeps(substeps_for<Integrator>(engine_, clock_.time_step));
     prepared_ = true;
   }
   /// What a checkpoint must agree with: dimension, integrator, precision, groups, mobilities, columns.
@@ -230,7 +229,7 @@ class Scene {
   struct Observer {
     double interval;
     std::function<void(Scene&)> call;
-    std::int64_t done = -1;  // multiples of the interval observed so far
+    double done = -1.0;  // multiples of the interval observed so far
   };
 
   void prepare() {
@@ -247,8 +246,8 @@ class Scene {
     if constexpr (has_substeps) engine_.set_substeps(substeps_for<Integrator>(engine_, dt));
   }
   /// Multiples of the observer's interval that have passed.
-  [[nodiscard]] std::int64_t due(const Observer& observer) const {
-    return static_cast<std::int64_t>(std::floor((clock_.time + 0.5 * clock_.time_step) / observer.interval));
+  [[nodiscard]] double due(const Observer& observer) const {
+    return std::floor((clock_.time + 0.5 * clock_.time_step) / observer.interval);
   }
   /// Whether an observer wants to see the present state.
   [[nodiscard]] bool observes() const {
@@ -258,7 +257,7 @@ class Scene {
   }
   void observe() {
     for (auto& observer : observers_) {
-      const std::int64_t now = due(observer);
+      const double now = due(observer);
       if (now <= observer.done) continue;
       observer.done = now;
       observer.call(*this);
@@ -283,7 +282,7 @@ class Scene {
     try {
       write_checkpoint(rescue_path_, signature(), views_of(engine_), last_good_);
     } catch (const std::exception& second) {
-      throw SimulationError(std::string(error.what()) + "; and the last good state could not be written: " + second.what(), error.where);
+      throw SimulationError(error, std::string("; and the last good state could not be written: ") + second.what());
     }
   }
 

@@ -3,9 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
+#include <dmp/core/require.hpp>
 #include <dmp/core/simulation_error.hpp>
 #include <dmp/io/checkpoint.hpp>
 #include <dmp/particles/view.hpp>
@@ -142,35 +146,53 @@ inline void write_checkpoint(const std::string& path, const std::string& signatu
   writer.commit();
 }
 
-/// Fills the groups from a checkpoint; their particle numbers must be those of the file. Nothing is changed when something does not fit.
+/// Fills the groups from a checkpoint; their particle numbers must be those of the file. Nothing is changed when something does not fit, or
+/// when a value is not finite, or not positive though it must be.
 [[nodiscard]] inline Clock read_checkpoint(const std::string& path, const std::string& signature,
                                            const std::vector<particles::GroupView>& groups) {
   const io::CheckpointReader reader(path, signature);
+  const auto require = [&path](bool holds, const std::string& rule, const std::string& got) {
+    if (!holds) throw io::CheckpointError("io::checkpoint: '" + path + "': " + rule + ", got " + got);
+  };
+  const auto read = [&]<class T>(const std::string& section, std::size_t wanted, std::type_identity<T>) {
+    auto values = reader.read<T>(section);
+    require(values.size() == wanted, "section " + section + " must hold " + std::to_string(wanted) + " numbers",
+            std::to_string(values.size()));
+    return values;
+  };
+  const std::type_identity<double> numbers;
+  const std::type_identity<std::uint64_t> counts;
+  const auto time = read("clock.times", 3, numbers);
+  const auto step = read("clock.steps", 3, counts);
+  const Clock clock{time[0], step[0], time[1], time[2], step[1], step[2]};
+  for (const double t : time) require(t - t == 0.0, "clock.times must be finite", to_text(t));
+  require(clock.time_step >= 0.0, "the time step must be >= 0", to_text(clock.time_step));
+  require(clock.base_step <= clock.step, "the step at which the time step was chosen must be <= " + std::to_string(clock.step),
+          std::to_string(clock.base_step));
+
   std::vector<std::vector<double>> columns;
   std::vector<std::vector<std::uint32_t>> ids;
-  const auto fits = [&path](const std::string& section, std::size_t got, std::size_t wanted) {
-    if (got != wanted)
-      throw io::CheckpointError(path + ": section " + section + " must hold " + std::to_string(wanted) + " numbers, got " +
-                                std::to_string(got));
-  };
-  const auto time = reader.template read<double>("clock.times");
-  const auto step = reader.template read<std::uint64_t>("clock.steps");
-  fits("clock.times", time.size(), 3);
-  fits("clock.steps", step.size(), 3);
-  for (const auto& group : groups) {
-    for (const auto& column : group.columns) {
-      columns.push_back(reader.template read<double>(detail::section(group, column.name)));
-      fits(detail::section(group, column.name), columns.back().size(), column.values.size());
+  std::vector<particles::GroupView> found = groups;
+  for (auto& group : found) {
+    for (auto& column : group.columns) {
+      columns.push_back(read(detail::section(group, column.name), column.values.size(), numbers));
+      column.values = columns.back();
     }
-    ids.push_back(reader.template read<std::uint32_t>(detail::section(group, "id")));
-    fits(detail::section(group, "id"), ids.back().size(), group.id.size());
+    ids.push_back(read(detail::section(group, "id"), group.id.size(), std::type_identity<std::uint32_t>{}));
+    group.id = ids.back();
   }
-  std::size_t next = 0;
+  constexpr std::array anywhere{std::numeric_limits<double>::infinity()};
+  constexpr std::array from{-anywhere[0]};
+  const Fault fault = find_fault(found, from, anywhere);
+  require(fault.what.empty(),
+          "group " + fault.group + ", particle " + std::to_string(fault.particle) + ": " + fault.field + " " + fault.what,
+          to_text(fault.value));
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const auto& column : groups[g].columns) std::copy(columns[next].begin(), columns[next].end(), column.values.begin()), ++next;
-    std::copy(ids[g].begin(), ids[g].end(), groups[g].id.begin());
+    for (std::size_t c = 0; c < groups[g].columns.size(); ++c)
+      std::ranges::copy(found[g].columns[c].values, groups[g].columns[c].values.begin());
+    std::ranges::copy(found[g].id, groups[g].id.begin());
   }
-  return {time[0], step[0], time[1], time[2], step[1], step[2]};
+  return clock;
 }
 
 }  // namespace dmp::simulation
