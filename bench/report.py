@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
 
-from processes import Failure, execute
+from processes import Failure, execute, table
 
 THREADS = (2, 4)
 SKINS = (50, 100, 150, 200, 300)  # thousandths of the support
@@ -82,7 +82,7 @@ def time_of_others():
 
 def run_yardstick(program):
     """Nanoseconds per directed pair, or per bond, by the name of the loop."""
-    lines = re.findall(r"^(\S.*?) +(\S+) ns/item", execute([program])[0], re.MULTILINE)
+    lines = re.findall(r"^(\S.*?) +(\S+) ns/item", execute([program]).text, re.MULTILINE)
     if not lines:
         raise Failure(f"--yardstick: {program} printed no times")
     return {f"yardstick, {name}": float(value) for name, value in lines}
@@ -92,7 +92,7 @@ def run_benchmarks(program, pattern, repetitions, least_seconds):
     """Counters by benchmark and name, the least of the repetitions; and the resident memory of the program."""
     command = [program, f"--benchmark_filter={pattern}", f"--benchmark_repetitions={repetitions}", f"--benchmark_min_time={least_seconds}",
                f"--benchmark_enable_random_interleaving={str(repetitions > 1).lower()}", "--benchmark_format=json"]
-    text, resident = execute(command)
+    text, resident, _ = execute(command)
     result = {}
     for run in json.loads(text)["benchmarks"]:
         if run["run_type"] != "iteration":
@@ -124,17 +124,13 @@ def run_round(options):
 
 def run_compile_cost(program):
     """Seconds and MiB by header or example."""
-    lines = re.findall(r"^(\S+) +(\S+) s +(\S+) MiB", execute([program])[0], re.MULTILINE)
+    lines = re.findall(r"^(\S+) +(\S+) s +(\S+) MiB", execute([program]).text, re.MULTILINE)
     if not lines:
         raise Failure(f"--compile-cost: {program} printed no times")
     return {name: (float(seconds), float(mebibytes)) for name, seconds, mebibytes in lines}
 
 
 # ---- Tables
-
-
-def table(header, rows):
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in [header, ["---"] * len(header), *rows])
 
 
 def particles(side):

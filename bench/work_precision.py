@@ -20,7 +20,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import Failure, execute
+from processes import Failure, execute, put_table
 
 KERNELS = ("Lucy", "CubicSpline", "WendlandC2", "WendlandC4")
 RUNS = 3
@@ -64,7 +64,7 @@ def measure(case, kernel, resolution, programs, folder):
     seconds = []
     for _ in range(RUNS):
         # Bounds are those of Lucy's kernel: others may miss them (status 1).
-        text, _ = execute([program, "--resolution", str(resolution), "--threads", "1", "--output", folder], statuses=(0, 1))
+        text = execute([program, "--resolution", str(resolution), "--threads", "1", "--output", folder], statuses=(0, 1)).text
         found = re.search(r"^result: (\{.*\})$", text, re.MULTILINE)
         if not found:
             raise Failure(f"{program} printed no result")
@@ -136,13 +136,8 @@ def main():
     try:
         points = curves(options.programs)
         page = options.docs / "accuracy.md"
-        text = page.read_text()
         for case in CASES:
-            text, count = re.subn(rf"(<!-- table: {case.name} -->\n).*?(<!-- end -->)",
-                                  lambda found: found.group(1) + table(points, case) + "\n" + found.group(2), text, flags=re.DOTALL)
-            if count != 1:
-                raise Failure(f"{page} needs the comments <!-- table: {case.name} --> and <!-- end --> once")
-        page.write_text(text)
+            put_table(page, case.name, table(points, case))
         write_csv(points, options.docs / "accuracy.csv")
         draw(points, options.docs / "accuracy.png")
     except Failure as failure:

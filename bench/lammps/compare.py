@@ -73,7 +73,7 @@ def run_lammps(lmp, case, size, steps, warm, ranks, folder):
     if ranks > 1:
         root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
         command = ["mpirun", *root, "-np", str(ranks), *command]
-    text, resident = execute(command, 1, folder)
+    text, resident, _ = execute(command, 1, folder)
     pattern = r"Loop time of (\S+) on \d+ procs for (\d+) steps with (\d+) atoms.*?(\S+)% CPU use with.*?Neighbor list builds = (\d+)"
     loops = [loop for loop in re.findall(pattern, text, re.DOTALL) if int(loop[1]) > 0]  # the warm-up and the timed steps
     if len(loops) != 2 or int(loops[1][1]) != steps:
@@ -89,7 +89,7 @@ def run_dmp(dmp, case, size, steps, warm, threads, folder):
     command = [dmp, "--scene", case.scene]
     for name, value in {**size, "steps": steps, "warm": warm}.items():
         command += [f"--{name}", str(value)]
-    text, _ = execute(command, threads, folder)
+    text = execute(command, threads, folder).text
     lines = re.findall(r"^result: (\{.*\})$", text, re.MULTILINE)
     if len(lines) != 1:
         raise Failure(f"{dmp} printed no result; is it the program lammps_scenes?")
