@@ -128,11 +128,10 @@ def scenes_of(text):
 # ---- The check
 
 
-def absent_fields(scenes, source, laws, root):
-    """Fields that neither the scenes hold nor one of their laws speaks of. Position, velocity and mass are shown to every material law."""
-    of_laws = set(re.findall(r"field::(\w+)", "".join(laws[name].text for name in named_laws(source, laws))))
+def absent_fields(scenes, root):
+    """Fields that none of the scenes holds. Position, velocity and mass are shown to every material law."""
     held = {"position", "velocity", "mass"}.union(*(scene.fields for scene in scenes))
-    return {f"field::{field}" for name, field in fields_by_name(root).items() if name not in held and field not in of_laws}
+    return {f"field::{field}" for name, field in fields_by_name(root).items() if name not in held}
 
 
 def check(options):
@@ -142,7 +141,7 @@ def check(options):
         documented = re.search(rf"^### {program.name}$(.*?)(?:^### |^<!-- end -->)", page, re.MULTILINE | re.DOTALL)
         source = source_of(program.name, options.root)
         scenes = scenes_of(documented.group(1) if documented else "")
-        absent = absent_names(source, laws) | absent_fields(scenes, source, laws, options.root)
+        absent = absent_names(source, laws) | absent_fields(scenes, options.root)
         print(f"{program.name}: none of {len(absent)} absent names in {check_symbols(program, absent)} symbols of dmp")
 
 
@@ -159,7 +158,7 @@ def write(options):
             print(example, file=sys.stderr)
             scenes = scenes_of(execute([program, "--quick", "--threads", "1", "--output", folder]).text)
             source = source_of(example, root)
-            absent = absent_names(source, laws) | absent_fields(scenes, source, laws, root)
+            absent = absent_names(source, laws) | absent_fields(scenes, root)
             expected = named_laws(source, laws)
             numbers = [check_symbols(program, absent), check_symbols(objects[example], absent, expected)]
             names = ", ".join(f"`{name}`" for name in sorted(expected))
