@@ -410,7 +410,7 @@ int run(const example::Options& options) {
   bars_by_poisson_ratio(seeds, folder, result);
   pressed_cubes(full ? 40 : 15, folder, result);
   result.wall_seconds = seconds() - start;
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

@@ -62,10 +62,9 @@ Found compress(const lattice_spring::Body<3>& body, const Case& of, example::Res
                       .largest_step = 0.3 * std::cbrt(body.points.volume),
                       .force_tolerance = 1e-5 * hard * std::cbrt(body.points.volume) * std::max(std::min(of.core, of.shell), 0.01)},
                      evaluations, [](const auto&) {});
-  result.particles = std::max(result.particles, scene.particles());
   result.steps += evaluations;
   result.particle_steps += static_cast<double>(evaluations) * static_cast<double>(scene.particles());
-  result.bytes_per_particle = bytes_per_particle(scene);
+  result.describe(scene);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.wall_seconds += seconds;
   const lattice_spring::Hertz unit{.radius = radius, .youngs_modulus = 1.0, .poisson_ratio = poisson_ratio};
@@ -114,7 +113,7 @@ int run(const example::Options& options) {
            "plot 'core_shell.csv' using ($3 < 1 ? $4 : 1/0):5 skip 1 with points pt 7 ps 2 title 'hard core, soft shell (0.1)', "
            "'' using ($2 == 0.01 ? $4 : 1/0):5 skip 1 with points pt 5 ps 2 title 'soft core (0.01), hard shell', "
            "'' using ($2 == 0.001 ? $4 : 1/0):5 skip 1 with points pt 9 ps 2 title 'soft core (0.001), hard shell'");
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

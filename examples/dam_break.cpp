@@ -125,7 +125,6 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
     return eos.density(released_pressure(sign * (x[0] - dam.closed_end), x[Dim - 1], dam.width, dam.depth));
   };
   tank.engine().for_each_group([&](auto& g) { g.template set<field::Density>(at_release); });
-  std::fputs(describe(tank).c_str(), stdout);
 
   // Observation
   std::vector<io::Column> columns{{"time", "s"}, {"front", "m"}, {"kinetic energy", "J"}, {"potential energy", "J"}, {"elastic energy", "J"},
@@ -147,8 +146,7 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
 
   // Run
   result.add(tank.run({.until = dam.end_time}));
-  result.particles += tank.particles();
-  result.bytes_per_particle = bytes_per_particle(tank);
+  result.describe(tank);
 
   // What holds for every dam break
   double lowest = history.front().energy(), growth = 0.0, variation = 0.0, peak = 0.0;
@@ -296,7 +294,7 @@ int run(const example::Options& options) {
                          .resolution = to_text(2 * across) + " particles in the height of the column, " + to_text(deep) + " in that of the reservoir"};
   column(across, quick ? 5.0 : 12.0, folder, result);
   reservoir(deep, quick ? 1.02 : full ? 3.0 : 1.2, folder, result);
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

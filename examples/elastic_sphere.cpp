@@ -136,10 +136,9 @@ Found compress(lattice_spring::Body<3> body, const Setup& setup, const io::Outpu
                                   .data = {{.name = "largest shear stress [Pa]", .values = shear},
                                            {.name = "stress [Pa]", .values = all, .components = 9}}});
   result.error("plates apart in force, " + setup.name, difference, 0.01, "at rest");
-  result.particles = std::max(result.particles, now.size());
   result.steps += evaluations;
   result.particle_steps += static_cast<double>(evaluations) * static_cast<double>(now.size());
-  result.bytes_per_particle = bytes_per_particle(scene);
+  result.describe(scene);
   result.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf("%-14s %7zu beads, %5.0f evaluations per state of rest, %zu beads folded, zero of delta %+.2f spacings, shear %.3f p0\n",
               setup.name.c_str(), now.size(), static_cast<double>(evaluations) / static_cast<double>(found.curve.size()), found.folded,
@@ -179,6 +178,9 @@ int run(const example::Options& options) {
   example::Result result{.example = "elastic_sphere", .test_case = "A4, A5, A6, A7"};
   using example::Size;
   const bool full = options.size == Size::full;
+  result.resolution = options.size == Size::quick ? "R = 16 spacings"
+                      : full                      ? "R = 16 and 32 spacings; networks of 5,921 and 50,000 beads"
+                                                  : "R = 16 and 20 spacings; networks of 5,921 beads";
 
   // Ordered: Young's modulus 2.5 k/l; k l is the unit of force
   const auto modulus = [](const Found& found, int n) { return found.fit.youngs_modulus / (2.5 * stiffness * n / radius); };
@@ -248,7 +250,7 @@ int run(const example::Options& options) {
                std::string(full ? ", 'force_q1_32.csv' using 1:(($2/" + to_text(2.5 * stiffness * 32 * radius) +
                                       ")**(2.0/3.0)) skip 1 with points pt 5 title 'cubic lattice, R = 32 l'"
                                 : ""));
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

@@ -112,8 +112,7 @@ void two_slabs(int rows, const io::OutputFolder& folder, example::Result& result
   result.error(label + ": largest error of T", errors.largest, 1.2 * bounds[1], source);
   result.error(label + ": flux", flux / (interface_temperature * right.conductivity) - 1.0, 1.2 * std::fabs(bounds[2] - 1.0), source);
   result.add(report);
-  result.particles = std::max(result.particles, scene.particles());
-  result.bytes_per_particle = bytes_per_particle(scene);
+  result.describe(scene);
 }
 
 /// HX-2: two half-spaces at 1 and 0 K are joined at t = 0; outer ends insulated, and too far away to matter.
@@ -146,8 +145,7 @@ void two_half_spaces(int rows, const io::OutputFolder& folder, example::Result& 
   result.error(label + ": L2 of T", errors.l2(), 1.2 * bounds[0], "error functions");
   result.error(label + ": largest error of T", errors.largest, 1.2 * bounds[1], "error functions");
   result.add(report);
-  result.particles = std::max(result.particles, scene.particles());
-  result.bytes_per_particle = bytes_per_particle(scene);
+  result.describe(scene);
 }
 
 /// HX-3: one phase, 100 by 10 particles, support of two spacings: the example of LAMMPS' sph/heatconduction.
@@ -172,6 +170,7 @@ void one_phase(const io::OutputFolder& folder, example::Result& result) {
   }
   result.error("HX-3, one phase: L2 of e [J/kg]", errors.l2(), 1.0e-3, "error function; stock LAMMPS 7.4e-4");
   result.add(report);
+  result.describe(scene);
 }
 
 int run(const example::Options& options) {
@@ -200,7 +199,7 @@ int run(const example::Options& options) {
     two_half_spaces<HarmonicMean>(rows, folder, result, bounds->spaces_harmonic);
   }
   if (options.resolution == 0) one_phase(folder, result);
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

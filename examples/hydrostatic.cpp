@@ -123,12 +123,10 @@ Outcome settle(Start start, int rows, double end, const io::OutputFolder& folder
   });
   tank.every(end / 20.0, VtkOutput(folder, name));
   tank.rescue_to((folder / (name + "_last_good.checkpoint")).string()).progress();
-  std::fputs(describe(tank).c_str(), stdout);
 
   // Run
   result.add(tank.run({.until = end}));
-  result.particles = tank.particles();
-  result.bytes_per_particle = bytes_per_particle(tank);
+  result.describe(tank);
   return outcome;
 }
 
@@ -169,7 +167,7 @@ int run(const example::Options& options) {
            "plot 'hydrostatic.csv' using 1:2 skip 1 with lines title 'hydrostatic start', 'uniform.csv' using 1:2 skip 1 with lines title 'uniform start'\n"
            "set ylabel 'L2 of the pressure / rho g H'\n"
            "plot 'hydrostatic.csv' using 1:4 skip 1 with lines title 'hydrostatic start', 'uniform.csv' using 1:4 skip 1 with lines title 'uniform start'\nunset multiplot");
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 // share nothing but what is declared. Case DMP-A; A. Albano et al., ChemEngineering 5 (2021) 30, doi:10.3390/chemengineering5020030,
 // appendix A, on a closed geometry; the reference values were run with LAMMPS on this geometry.
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <dmp/dmp.hpp>
 
@@ -113,10 +112,9 @@ int run(const example::Options& options) {
       bonds<Membrane, Membrane>(spring, tube.chain), bonds<Membrane, Wall>(spring, tube.anchors),
       material<Liquid, Wall, Membrane>(eos::Tait{.rest_density = density, .sound_speed_0 = sound_speed}, rheology::Constant{.dynamic_viscosity = 1e-3}),
       forced_by<Liquid>(push), forced_by<Liquid, Membrane>(drag));
-  std::fputs(describe(balloon).c_str(), stdout);
 
   // Observation
-  example::Result result{.example = "membrane", .test_case = "DMP-A", .resolution = "9 particles across the tube, 100 bonds", .particles = balloon.particles()};
+  example::Result result{.example = "membrane", .test_case = "DMP-A", .resolution = "9 particles across the tube, 100 bonds"};
   io::CsvTable table(folder / "membrane.csv", {{"time", "s"}, {"tip", "mm"}, {"mean density", "kg/m^3"}, {"fastest", "m/s"}, {"leaked", "-"}});
   std::size_t next = 0;
   int leaked = 0;
@@ -136,7 +134,7 @@ int run(const example::Options& options) {
 
   // Run
   result.add(balloon.run({.until = end, .time_step = 1e-5}));
-  result.bytes_per_particle = bytes_per_particle(balloon);
+  result.describe(balloon);
   result.error("particles that passed the membrane", leaked, 0.0, "impermeable");
 
   io::CsvTable shape(folder / "particles.csv", {{"group", "-"}, {"x", "mm"}, {"y", "mm"}, {"density", "kg/m^3"}});
@@ -155,7 +153,7 @@ int run(const example::Options& options) {
            "lc palette, '' using ($1==2?$2:1/0):3 skip 1 with lines lw 3 lc rgb 'black'\n"
            "set size noratio\nset title 'tip of the membrane'\nset xlabel 't [s]'\nset ylabel 'x [mm]'\nset key bottom right\nset datafile separator whitespace\n"
            "plot $lammps using 1:2 with points pt 6 ps 2 title 'LAMMPS', \"<sed 's/,/ /g' membrane.csv\" using 1:2 skip 1 with lines lw 2 title 'dmp'\nunset multiplot");
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -106,7 +105,6 @@ int run(const example::Options& options) {
       ring.group<Beads>().positions()[i][0] += wave.displacement(i);
       ring.group<Beads>().get<field::Velocity>()[i][0] += wave.velocity(i);
     }
-  std::fputs(describe(ring).c_str(), stdout);
 
   // Observation
   const double time_step = fraction * ring.step_limit().time_step, end = steps * time_step;
@@ -129,9 +127,9 @@ int run(const example::Options& options) {
   ring.rescue_to((folder / "last_good.checkpoint").string()).progress();
 
   // Run
-  example::Result result{.example = "oscillator_chain", .test_case = "waves on a ring of springs", .resolution = std::to_string(beads) + " beads, 7 waves", .particles = ring.particles()};
+  example::Result result{.example = "oscillator_chain", .test_case = "waves on a ring of springs", .resolution = std::to_string(beads) + " beads, 7 waves"};
   result.add(ring.run({.until = end, .time_step = time_step}));
-  result.bytes_per_particle = bytes_per_particle(ring);
+  result.describe(ring);
 
   // Frequencies: the error of the leapfrog is (omega dt)^2/24 to leading order. A wave that starts with the velocity of the exact chain
   // carries (omega dt/4)^2 of a wave that runs backwards, by which its angle is uncertain.
@@ -153,7 +151,7 @@ int run(const example::Options& options) {
            "plot 2*sin(x/2) with lines lw 2 title '2 sin(q a/2)', 'dispersion.csv' using 2:($3/" + to_text(std::sqrt(stiffness / mass)) + ") skip 1 with points pt 7 ps 2 title 'dmp'\n"
            "set ylabel 'frequency error, relative'\nset logscale y\nset format y '10^{%T}'\n"
            "plot (" + to_text(2.0 * fraction) + "*sin(x/2))**2/24 with lines lw 2 title '(omega dt)^2/24', 'dispersion.csv' using 2:($3/$4 - 1) skip 1 with points pt 7 ps 2 title 'dmp'\nunset multiplot");
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Errors of the velocity profile against the series solutions, during the transient and at its end. Cases VISC-1 and FS-2.
 // Viscous law: J. P. Morris, P. J. Fox, Y. Zhu, J. Comput. Phys. 136 (1997) 214-226, doi:10.1006/jcph.1997.5776.
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <vector>
 #include <dmp/dmp.hpp>
@@ -84,8 +83,7 @@ example::ProfileError flow(Drive drive, int rows, const io::OutputFolder& folder
   if (drive == Drive::body_force) result.error(label + ": shape of u", at_end.shape, rows >= 20 ? 0.012 : 0.02, source);
   result.add(transient);
   result.add(rest);
-  result.particles = std::max(result.particles, scene.particles());
-  result.bytes_per_particle = bytes_per_particle(scene);
+  result.describe(scene);
   return at_end;
 }
 
@@ -110,7 +108,7 @@ int run(const example::Options& options) {
              "set logscale\nset xlabel 'N'\nset ylabel 'L2 error of u'\nset key bottom left\n"
              "plot 'convergence.csv' using 1:2 skip 1 with linespoints title 'Poiseuille', '' using 1:3 skip 1 with linespoints title "
              "'Couette', 0.55/x title '0.55/N'\nunset multiplot");
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

@@ -185,8 +185,7 @@ void tube(double high_pressure, int columns, const io::OutputFolder& folder, exa
   result.error(label + ": energy, relative change", energy() / energy_before - 1.0, 1e-5, "conservation");
   VtkOutput(folder, name)(scene);
   result.add(report);
-  result.particles = std::max(result.particles, scene.particles());
-  result.bytes_per_particle = bytes_per_particle(scene);
+  result.describe(scene);
 }
 
 int run(const example::Options& options) {
@@ -206,7 +205,7 @@ int run(const example::Options& options) {
              "pt 6 ps 0.3 title 'dmp, '.name.' bar'\n"
              "  set ylabel 'u [m/s]'\n  plot file using 1:6 skip 1 with points pt 7 ps 0.3 title 'exact', '' using 1:3 skip 1 with points "
              "pt 6 ps 0.3 title 'dmp'\n}\nunset multiplot");
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

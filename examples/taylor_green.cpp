@@ -118,7 +118,6 @@ Outcome solve(int resolution, const io::OutputFolder& folder, example::Result& r
   auto& fluid = vortices.template group<Fluid>();
   fluid.template set<field::Density>([&](const Vector<2>& x) { return eos.density(exact_pressure(x)); });
   fluid.template set<field::Velocity>([](const Vector<2>& x) { return exact_velocity(x, 0.0); });
-  std::fputs(describe(vortices).c_str(), stdout);
 
   // Observation
   Outcome outcome;
@@ -134,8 +133,7 @@ Outcome solve(int resolution, const io::OutputFolder& folder, example::Result& r
 
   // Run
   result.add(vortices.run({.until = end}));
-  result.particles = vortices.particles();
-  result.bytes_per_particle = bytes_per_particle(vortices);
+  result.describe(vortices);
   return outcome;
 }
 
@@ -179,7 +177,7 @@ int run(const example::Options& options) {
                "set autoscale y\nset logscale x\nset xlabel 'N'\nset ylabel 'error of the velocity at t = L/U'\nset xrange [20:250]\n"
                "plot 'taylor_green.csv' using 1:2 skip 1 with linespoints title 'L1', '' using 1:3 skip 1 with linespoints title 'L2', "
                "'' using 1:5 skip 1 with lines dt 2 title 'bound of L2'\nunset multiplot");
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

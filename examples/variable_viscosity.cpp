@@ -87,13 +87,6 @@ double row_of_largest_velocity(const Group& water, double spacing) {
   return static_cast<double>(found) * spacing;
 }
 
-template <class Scene>
-void note(example::Result& result, const Scene& scene, const RunReport& report) {
-  result.add(report);
-  result.particles = std::max(result.particles, scene.particles());
-  result.bytes_per_particle = bytes_per_particle(scene);
-}
-
 template <class Group, class Exact>
 void write_profile(const io::OutputFolder& folder, const std::string& name, const Group& water, const Exact& exact) {
   io::CsvTable table(folder / (name + ".csv"), {{"y", "m"}, {"u", "m/s"}, {"exact u", "m/s"}});
@@ -164,7 +157,8 @@ void heated_channel(double ratio, int rows, const io::OutputFolder& folder, exam
   const std::string name = id + "_" + to_text(ratio) + "_" + std::to_string(rows);
   write_profile(folder, name, water, velocity);
   VtkOutput(folder, name)(scene);
-  note(result, scene, report);
+  result.add(report);
+  result.describe(scene);
 }
 
 /// VISC-4: one viscosity, by a law along the line of centres.
@@ -192,7 +186,8 @@ void along_centres(const Viscosity& viscosity, double sound_speed, const std::st
                "the law's own error on this lattice");
   result.error("VISC-4, " + name + ": shape of u", error.shape, shape, "parabola");
   write_profile(folder, "VISC-4_" + name, scene.template group<Water>(), parabola);
-  note(result, scene, report);
+  result.add(report);
+  result.describe(scene);
 }
 
 /// VISC-5: power-law fluid, H = K = u_max = density = 1; the plates are stationary, so that they know the shear rate beside them.
@@ -220,7 +215,8 @@ void power_law(double n, int rows, double l2, double shape, const io::OutputFold
   result.error(label + ": L2 of u", error.l2, l2, "exact profile");
   result.error(label + ": shape of u", error.shape, shape, "exact profile");
   write_profile(folder, "VISC-5_" + to_text(n) + "_" + std::to_string(rows), scene.template group<Water>(), exact);
-  note(result, scene, report);
+  result.add(report);
+  result.describe(scene);
 }
 
 int run(const example::Options& options) {
@@ -231,7 +227,7 @@ int run(const example::Options& options) {
   for (const int rows : resolutions) {
     if (options.resolution > 0) {
       heated_channel<Temperature::prescribed>(3.0, rows, folder, result);
-      return result.print();
+      return result.print(folder);
     }
     for (const double ratio : {1.5, 2.0, 3.0, 5.0}) heated_channel<Temperature::prescribed>(ratio, rows, folder, result);
     heated_channel<Temperature::conducted>(3.0, rows, folder, result);
@@ -245,7 +241,7 @@ int run(const example::Options& options) {
   }
   power_law(0.5, 20, 0.18, 0.04, folder, result);
   power_law(1.5, 20, 0.07, 0.04, folder, result);
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

@@ -60,10 +60,9 @@ class Press {
     x_.assign(now.begin(), now.end());
     const auto low = load_on<Beads>(scene, below_, approach), high = load_on<Beads>(scene, above_, approach);
     largest_difference_ = std::max(largest_difference_, std::fabs(low.force[2] + high.force[2]) / std::max(1e-300, low.force[2]));
-    result.particles = std::max(result.particles, x_.size());
     result.steps += report.evaluations;
     result.particle_steps += static_cast<double>(report.evaluations) * static_cast<double>(x_.size());
-    result.bytes_per_particle = bytes_per_particle(scene);
+    result.describe(scene);
     result.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return 0.5 * (low.force[2] - high.force[2]);
   }
@@ -186,6 +185,7 @@ int run(const example::Options& options) {
   const io::OutputFolder folder(options.output);
   example::Result result{.example = "viscoelastic_sphere", .test_case = "A8a, A8b, A8c, A9"};
   const bool quick = options.size == example::Size::quick, full = options.size == example::Size::full;
+  result.resolution = std::string("R = ") + (full ? "16" : "10") + " spacings" + (quick ? "" : "; a network of 5,921 beads");
   auto body = ordered(full ? 16 : 10);
   lattice_spring::measure_rest_lengths<3>(body.bonds, body.points.positions);
   const auto elastic_small = elastic_forces(body, small, 200.0, result);
@@ -206,7 +206,7 @@ int run(const example::Options& options) {
              "plot 'linear_solid.csv' using 1:4 skip 1 with lines lw 2 title 'F_{el} convolved', '' using 1:3 skip 1 with points pt 7 "
              "title 'standard linear solid'\nunset multiplot");
   }
-  return result.print();
+  return result.print(folder);
 }
 
 }  // namespace

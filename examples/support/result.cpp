@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <fstream>
+#include <stdexcept>
 #include <utility>
 #include <dmp/core/require.hpp>
 
@@ -35,7 +37,7 @@ bool Result::holds() const {
   return !errors.empty();
 }
 
-int Result::print() const {
+int Result::print(const dmp::io::OutputFolder& folder) const {
   std::string json = "{\"example\": " + quoted(example) + ", \"case\": " + quoted(test_case) + ", \"resolution\": " + quoted(resolution) +
                      ", \"particles\": " + std::to_string(particles) + ", \"steps\": " + std::to_string(steps) + ", \"errors\": {";
   for (const Error& error : errors) {
@@ -48,6 +50,10 @@ int Result::print() const {
           ", \"particle_steps_per_second\": " + number(wall_seconds > 0.0 ? particle_steps / wall_seconds : 0.0) +
           ", \"bytes_per_particle\": " + number(bytes_per_particle) + ", \"step_bound_by\": " + quoted(step_bound_by) + "}";
   std::printf("result: %s\n", json.c_str());
+  std::ofstream file(folder / "result.json");
+  file << json << '\n';
+  file.close();
+  if (!file) throw std::runtime_error("cannot write result.json");
   return holds() ? 0 : 1;
 }
 

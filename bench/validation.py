@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""Runs every example and puts what it finds into docs/: validation.csv, all figures of the quick and of the usual run; and the tables of
+validation.md (between its comments `<!-- table: NAME -->` and `<!-- end -->`), those of the usual run.
+
+    cmake --preset release && cmake --build --preset release --target validation
+
+One thread, one example at a time, some ten minutes; run times are processor times of the whole program and count on an idle machine.
+`validation.py check` compares the result of one run with validation.csv: the tests documented_EXAMPLE_SIZE. An error may differ from the
+documented one by 1 % of it, or by a thousandth of its bound if that is more; in the runs of CHAOTIC, which amplify rounding, by a quarter of
+the bound. The names and bounds of the errors and the number of particles must be those documented. docs/validation.md says why.
+"""
+import argparse
+import csv
+import json
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+from processes import Failure, execute, put_table, table
+
+SIZES = {"quick": ["--quick"], "normal": []}  # and how to ask for them
+TOLERANCE = 0.01
+TOLERANCE_OF_BOUND, TOLERANCE_OF_CHAOTIC = 0.001, 0.25
+DOI = r"doi:(10\.[^\s,;()]*(?:\([^\s()]*\)[^\s,;()]*)*[^\s,;().:])"  # without the full stop of a sentence
+CHAOTIC = (("dam_break", "normal"), ("membrane", "normal"))
+COLUMNS = ("example", "size", "case", "resolution", "particles", "steps", "run time [s]", "bytes per particle", "step bound by",
+           "error", "value", "bound", "reference")
+
+
+# ---- Running
+
+
+def run(program, size, folder):
+    """The result of one run, with its size and processor time."""
+    seconds = execute([program, *SIZES[size], "--threads", "1", "--output", folder]).seconds
+    result = json.loads((Path(folder) / "result.json").read_text())
+    print(f"{program.name}, {size}: {len(result['errors'])} figures, {seconds:.1f} s", file=sys.stderr)
+    return result | {"size": size, "seconds": seconds}
+
+
+def rows_of(result):
+    for name, error in result["errors"].items():
+        yield [result["example"], result["size"], result["case"], result["resolution"], result["particles"], result["steps"],
+               f"{result['seconds']:.2f}", f"{result['bytes_per_particle']:.1f}", result["step_bound_by"], name,
+               *(f"{error[key]:.6g}" for key in ("value", "bound")), error["reference"]]
+
+
+# ---- The page
+
+
+def text(cell):
+    return str(cell).replace("|", "\\|").replace("<", "&lt;")
+
+
+def nearest(errors):
+    """The error that uses most of its bound. Bounds of zero are met or not."""
+    return max(errors.items(), key=lambda item: abs(item[1]["value"]) / item[1]["bound"] if item[1]["bound"] > 0.0 else 0.0)
+
+
+def overview(results, programs):
+    rows = []
+    for result, program in zip(results, programs):
+        name, error = nearest(result["errors"])
+        example = result["example"]
+        system = execute([program, "--help"]).text.splitlines()[0]
+        rows.append([f"[{example}](#{example})", text(system), text(result["case"]), text(result["resolution"]), f"{result['particles']}",
+                     f"{result['steps']}", f"{len(result['errors'])}", text(f"{name}: {abs(error['value']):.3g} of {error['bound']:.3g}"),
+                     text(error["reference"]), f"{result['seconds']:.1f}", f"`build/release/examples/{example} --threads 1`"])
+    return table(["example", "system", "case", "resolution", "particles", "steps", "errors", "nearest to its bound", "its reference",
+                  "run time [s]", "command"], rows)
+
+
+def figures(results, sources):
+    """A section for each example: what its source says of it, and all its errors."""
+    sections = []
+    for result in results:
+        example = result["example"]
+        comment = []
+        for line in (sources / f"{example}.cpp").read_text().splitlines():
+            if not line.startswith("//"):
+                break
+            comment.append(line[2:].strip())
+        about = re.sub(DOI, r"[doi:\1](https://doi.org/\1)", text(" ".join(comment)))
+        rows = [[text(name), f"{error['value']:.3g}", f"{error['bound']:.3g}", text(error["reference"])]
+                for name, error in result["errors"].items()]
+        sections += [f"### {example}", f"[{example}.cpp](../examples/{example}.cpp): {about}",
+                     table(["error", "value", "bound", "reference"], rows)]
+    return "\n\n".join(sections)
+
+
+def write(options):
+    with tempfile.TemporaryDirectory() as folder:
+        results = [run(program, size, folder) for program in options.programs for size in SIZES]
+    usual = [result for result in results if result["size"] == "normal"]
+    page = options.root / "docs/validation.md"
+    put_table(page, "overview", overview(usual, options.programs))
+    put_table(page, "figures", figures(usual, options.root / "examples"))
+    with open(options.root / "docs/validation.csv", "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for result in results:
+            writer.writerows(rows_of(result))
+
+
+# ---- The check
+
+
+def differences(result, size, documented):
+    """What does not hold of the documented rows of this run."""
+    errors = result["errors"]
+    of_bound = TOLERANCE_OF_CHAOTIC if (result["example"], size) in CHAOTIC else TOLERANCE_OF_BOUND
+    names = [row["error"] for row in documented]
+    yield from (f"{name}: measured, not documented" for name in errors if name not in names)
+    for row in documented:
+        name, value, bound, particles = row["error"], float(row["value"]), float(row["bound"]), int(row["particles"])
+        if name not in errors:
+            yield f"{name}: documented, not measured"
+        elif particles != result["particles"]:
+            yield f"{name}: of {result['particles']} particles, documented are {particles}"
+        elif abs(errors[name]["bound"] - bound) > TOLERANCE * bound:
+            yield f"{name}: bound {errors[name]['bound']:.6g}, documented is {bound:.6g}"
+        elif not abs(errors[name]["value"] - value) <= max(TOLERANCE * abs(value), of_bound * bound):
+            yield f"{name}: {errors[name]['value']:.6g}, documented is {value:.6g} of {bound:.6g}"
+
+
+def check(options):
+    result = json.loads(options.result.read_text())
+    with open(options.root / "docs/validation.csv", newline="") as file:
+        documented = [row for row in csv.DictReader(file) if (row["example"], row["size"]) == (result["example"], options.size)]
+    found = list(differences(result, options.size, documented))
+    if found:
+        raise Failure("docs/validation.csv does not hold; if the change is meant, build the target validation\n  " + "\n  ".join(found))
+    print(f"{len(documented)} documented errors hold")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True)
+    writer = commands.add_parser("write", help="run all examples and write docs/validation.csv and docs/validation.md")
+    writer.add_argument("--programs", type=Path, nargs="+", required=True, help="the examples")
+    writer.set_defaults(function=write)
+    checker = commands.add_parser("check", help="compare a result with docs/validation.csv")
+    checker.add_argument("--result", type=Path, required=True, help="result.json of a run")
+    checker.add_argument("--size", choices=SIZES, required=True, help="of that run")
+    checker.set_defaults(function=check)
+    for command in (writer, checker):
+        command.add_argument("--root", type=Path, required=True, help="folder of the repository")
+    options = parser.parse_args()
+    try:
+        options.function(options)
+    except Failure as failure:
+        sys.exit(f"validation: {failure}")
+
+
+if __name__ == "__main__":
+    main()
