@@ -40,7 +40,7 @@ class VtkOutput {
       Derived one{is_pressure ? "pressure [Pa]" : std::string(Field::name) + " [" + std::string(Field::unit) + "]", {}};
       for (std::size_t i = 0; i < group.size(); ++i) {
         const auto particle = scene.engine().prepared(group, i, 0.0);
-        if constexpr (is_pressure) one.values.push_back(particle.pressure_term * square(particle.density));
+        if constexpr (is_pressure) one.values.push_back(Field::of(particle) * square(field::Density::of(particle)));
         else one.values.push_back(Field::of(particle));
       }
       result.push_back(std::move(one));
