@@ -32,6 +32,11 @@ class VtkOutput {
     std::string name;
     std::vector<double> values;
   };
+  template <class Field>
+  [[nodiscard]] static double value_of(const auto& particle) {
+    if constexpr (std::is_same_v<Field, field::PressureTerm>) return particle.pressure_term * square(particle.density);
+    else return Field::of(particle);
+  }
   template <class Scene, class Group>
   [[nodiscard]] static std::vector<Derived> derived(const Scene& scene, const Group& group) {
     std::vector<Derived> result;
@@ -39,9 +44,7 @@ class VtkOutput {
       constexpr bool is_pressure = std::is_same_v<Field, field::PressureTerm>;
       Derived one{is_pressure ? "pressure [Pa]" : std::string(Field::name) + " [" + std::string(Field::unit) + "]", {}};
       for (std::size_t i = 0; i < group.size(); ++i) {
-        const auto particle = scene.engine().prepared(group, i, 0.0);
-        if constexpr (is_pressure) one.values.push_back(Field::of(particle) * square(field::Density::of(particle)));
-        else one.values.push_back(Field::of(particle));
+        one.values.push_back(value_of<Field>(scene.engine().prepared(group, i, 0.0)));
       }
       result.push_back(std::move(one));
     });
