@@ -81,10 +81,10 @@ struct WeaklyCompressible {
     double nu = state.kinematic_viscosity;
     if constexpr (requires { viscosity.kinematic_viscosity(h, h, h); })
       nu = viscosity.kinematic_viscosity(state.sound_speed, state.speed, h);
-    const double rate = viscosity.damping_rate(nu, h, kernel::radial_factor_integral(kernel), K::dimension);
+    const double rate = viscosity.damping_rate(nu, h, kernel::largest_radial_factor_sum(kernel), K::dimension);
     if (rate > 0.0) limit.require_below(state.damping_limit / rate, "viscosity");
     if constexpr (requires { diffusion.damping_rate(h, h); })
-      limit.require_below(state.state_damping_limit / diffusion.damping_rate(h, kernel::radial_factor_integral(kernel)), "density diffusion");
+      limit.require_below(state.state_damping_limit / diffusion.damping_rate(h, kernel::largest_radial_factor_sum(kernel)), "density diffusion");
   }
 };
 
