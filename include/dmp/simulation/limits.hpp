@@ -72,11 +72,18 @@ template <class Integrator, class Engine, class G>
 
 enum class BondKind { all, slow, fast };  ///< fast: the sub-stepped ones
 
+/// What the pair laws of one interaction do to the particles of a group, the largest of all interactions.
+struct PairRates {
+  double damping = 0.0;      ///< lambda [1/s]
+  double oscillation = 0.0;  ///< omega^2 [1/s^2]
+};
+
 /// What bonds and forcings do to the particles of a group: omega^2 <= sum of f k/m and lambda <= sum of f c/m over the bonds of one
 /// particle, plus stiffness/m and damping rates of forcings (Gershgorin's circles of the stiffness matrix); f = 2, or 1 where the partner
-/// cannot move. Spring and dashpot together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1.
+/// cannot move. What pair laws do adds to both: `pairs`. All together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping
+/// limit < 1.
 template <class Integrator, class Engine, class G>
-void limit_group(const Engine& engine, const G& g, double time, BondKind kind, sweep::StepLimit& limit) {
+void limit_group(const Engine& engine, const G& g, double time, BondKind kind, const PairRates& pairs, sweep::StepLimit& limit) {
   if constexpr (particles::is_mobile<typename G::Mobility>) {
     std::vector<double> stiffness, dashpot;  // omega^2 and lambda of each particle; empty without bonds
     std::vector<double> forced;              // omega^2 of forcings; empty without any that have a stiffness
@@ -119,19 +126,26 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, s
               },
               active.item.laws);
     });
-    if (drag > 0.0) limit.require_below(Integrator::damping_limit / drag, "drag on " + g.name);
+    if (drag > 0.0) limit.require_below(Integrator::damping_limit / (drag + pairs.damping), "drag on " + g.name);
     double shortest = std::numeric_limits<double>::infinity();
     const char* bound_by = "";
-    for (std::size_t i = 0; i < std::max(stiffness.size(), forced.size()); ++i) {
+    const std::size_t rows = std::max({stiffness.size(), forced.size(), std::size_t{pairs.oscillation > 0.0 ? 1u : 0u}});
+    for (std::size_t i = 0; i < rows; ++i) {
       const double bonds = stiffness.empty() ? 0.0 : stiffness[i], forcings = forced.empty() ? 0.0 : forced[i];
-      const double damping = dashpot.empty() ? 0.0 : dashpot[i], per_damping = (damping + drag) / Integrator::damping_limit;
-      const double oscillation = Integrator::oscillation_limit / std::sqrt(bonds + forcings), half = 0.5 * oscillation * per_damping;
-      const bool springs = bonds + forcings > 0.0;
+      const double damping = dashpot.empty() ? 0.0 : dashpot[i], squared = bonds + forcings + pairs.oscillation;
+      const double per_damping = (damping + drag + pairs.damping) / Integrator::damping_limit;
+      const double oscillation = Integrator::oscillation_limit / std::sqrt(squared), half = 0.5 * oscillation * per_damping;
+      const bool springs = squared > 0.0;
       if (!springs && damping == 0.0) continue;
       const double bound = springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
       if (bound >= shortest) continue;
       shortest = bound;
-      bound_by = !springs || half >= 0.5 ? "bond dashpot of " : forcings > bonds ? "stiffness of a forcing on " : "bond stiffness of ";
+      if (!springs || half >= 0.5)
+        bound_by = damping >= drag && damping >= pairs.damping ? "bond dashpot of " : drag >= pairs.damping ? "drag on " : "viscosity of ";
+      else
+        bound_by = bonds >= forcings && bonds >= pairs.oscillation ? "bond stiffness of "
+                   : forcings >= pairs.oscillation                 ? "stiffness of a forcing on "
+                                                                   : "pair potential of ";
     }
     if (shortest < std::numeric_limits<double>::infinity()) limit.require_below(shortest, bound_by + g.name);
   }
@@ -145,27 +159,35 @@ template <class Integrator, class Engine>
   sweep::StepLimit limit;
   std::vector<sweep::StepState> states;
   engine.for_each_group([&](const auto& g) { states.push_back(detail::state_of<Integrator>(engine, g)); });
-  const auto state = [&]<class Tag>(std::type_identity<Tag>) {
+  std::vector<detail::PairRates> rates(states.size());
+  const auto index_of = [&]<class Tag>(std::type_identity<Tag>) {
     std::size_t index = 0, found = 0;
     engine.for_each_group([&](const auto& g) {
       if (std::is_same_v<typename std::remove_cvref_t<decltype(g)>::Tag, Tag>) found = index;
       ++index;
     });
-    return states[found];
+    return found;
   };
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_interaction<I>) {
-      const sweep::StepState a = state(std::type_identity<typename I::A>{}), b = state(std::type_identity<typename I::B>{});
+      const std::size_t a = index_of(std::type_identity<typename I::A>{}), b = index_of(std::type_identity<typename I::B>{});
+      limit.damping = limit.oscillation = 0.0;
       const auto one = [&](const auto& law) {
-        if constexpr (requires { law.step_limits(a, b, limit); }) law.step_limits(a, b, limit);
-        else law.step_limits(detail::widest(a, b), limit);
+        if constexpr (requires { law.step_limits(states[a], states[b], limit); }) law.step_limits(states[a], states[b], limit);
+        else law.step_limits(detail::widest(states[a], states[b]), limit);
       };
       std::apply([&](const auto&... law) { (one(law), ...); }, active.item.laws);
+      for (const std::size_t group : {a, b}) {
+        rates[group].damping = std::max(rates[group].damping, limit.damping);
+        rates[group].oscillation = std::max(rates[group].oscillation, limit.oscillation);
+      }
     }
   });
+  std::size_t index = 0;
   engine.for_each_group([&](const auto& g) {
-    detail::limit_group<Integrator>(engine, g, time, without_substepped ? detail::BondKind::slow : detail::BondKind::all, limit);
+    detail::limit_group<Integrator>(engine, g, time, without_substepped ? detail::BondKind::slow : detail::BondKind::all, rates[index++],
+                                    limit);
   });
   return limit;
 }
@@ -182,7 +204,7 @@ template <class Integrator, class Engine>
         asked = std::max(asked, active.item.substeps);
       }
   });
-  engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, 0.0, detail::BondKind::fast, fast); });
+  engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, 0.0, detail::BondKind::fast, {}, fast); });
   const double needed = std::ceil(dt / (0.9 * fast.time_step));
   if (asked > 0 && dt / asked > fast.time_step)
     throw ParameterError("substepped_bonds: substeps must be >= " + to_text(std::ceil(dt / fast.time_step)) + " for a step of " +

@@ -82,7 +82,7 @@ struct WeaklyCompressible {
     if constexpr (requires { viscosity.kinematic_viscosity(h, h, h); })
       nu = viscosity.kinematic_viscosity(state.sound_speed, state.speed, h);
     const double rate = viscosity.damping_rate(nu, h, kernel::largest_radial_factor_sum(kernel), K::dimension);
-    if (rate > 0.0) limit.require_below(state.damping_limit / rate, "viscosity");
+    limit.damp(rate, state.damping_limit, "viscosity");
     if constexpr (requires { diffusion.damping_rate(h, h); })
       limit.require_below(state.state_damping_limit / diffusion.damping_rate(h, kernel::largest_radial_factor_sum(kernel)), "density diffusion");
   }

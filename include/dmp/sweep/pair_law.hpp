@@ -64,7 +64,7 @@ struct PotentialForce {
   }
   /// omega dt < limit for a particle held by contacts on all sides: omega^2 <= 2 * 6 U''/m (Gershgorin).
   void step_limits(const StepState& state, StepLimit& limit) const {
-    limit.require_below(state.oscillation_limit / std::sqrt(12.0 * potential.largest_stiffness() / state.mass), "pair potential");
+    limit.oscillate(12.0 * potential.largest_stiffness() / state.mass, state.oscillation_limit, "pair potential");
   }
 };
 template <class P>
