@@ -1,6 +1,7 @@
-"""What the scripts of this folder share: running a program and measuring what it needs."""
+"""What the scripts of this folder share: running a program, measuring what it needs, putting tables into a page."""
 
 import os
+import re
 import subprocess
 import tempfile
 
@@ -23,3 +24,14 @@ def execute(command, threads=None, folder=None, statuses=(0,)):
             last_lines = "\n".join((text + errors.read()).strip().splitlines()[-5:])
             raise Failure(f"{' '.join(map(str, command))}\nended with status {process.returncode}:\n{last_lines}")
     return text, 1024.0 * usage.ru_maxrss
+
+
+def put_tables(page, tables):
+    """Puts each of `tables` {name: text} into the page, between its comments `<!-- table: NAME -->` and `<!-- end -->`."""
+    text = page.read_text()
+    for name, table in tables.items():
+        text, count = re.subn(rf"(<!-- table: {re.escape(name)} -->\n).*?(<!-- end -->)", lambda found: found.group(1) + table + "\n" + found.group(2),
+                              text, flags=re.DOTALL)
+        if count != 1:
+            raise Failure(f"{page} needs the comments <!-- table: {name} --> and <!-- end --> once")
+    page.write_text(text)

@@ -20,7 +20,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import Failure, execute
+from processes import Failure, execute, put_tables
 
 KERNELS = ("Lucy", "CubicSpline", "WendlandC2", "WendlandC4")
 RUNS = 3
@@ -135,14 +135,7 @@ def main():
     options = parser.parse_args()
     try:
         points = curves(options.programs)
-        page = options.docs / "accuracy.md"
-        text = page.read_text()
-        for case in CASES:
-            text, count = re.subn(rf"(<!-- table: {case.name} -->\n).*?(<!-- end -->)",
-                                  lambda found: found.group(1) + table(points, case) + "\n" + found.group(2), text, flags=re.DOTALL)
-            if count != 1:
-                raise Failure(f"{page} needs the comments <!-- table: {case.name} --> and <!-- end --> once")
-        page.write_text(text)
+        put_tables(options.docs / "accuracy.md", {case.name: table(points, case) for case in CASES})
         write_csv(points, options.docs / "accuracy.csv")
         draw(points, options.docs / "accuracy.png")
     except Failure as failure:
