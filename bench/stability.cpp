@@ -26,12 +26,13 @@ std::string ratio(const Case& c) {
 }
 
 void print_laws(const char* name, const std::vector<Case>& cases) {
-  std::printf("table: %s\n| law | scene | bound [s] | whose | blow-up [s] | blow-up / bound | stopped by an error at | why not sharp |\n|---|---|---|---|---|---|---|---|\n", name);
+  std::printf("table: %s\n| law | scene | bound [s] | whose | blow-up [s] | blow-up / bound | stopped by an error at | why not sharp |\n", name);
+  std::printf("|---|---|---|---|---|---|---|---|\n");
   for (const auto& c : cases) {
     const double found = largest_stable(c, steps);
     const Outcome past = c.run(c.stopped * c.stated, steps);
-    std::printf("| %s | %s | %.4g | %s | %.4g | %.2f | %.1f of the bound, step %llu | %s |\n", c.law.c_str(), c.scene.c_str(), c.stated, c.bound_by.c_str(), found * c.stated, found, c.stopped,
-                static_cast<unsigned long long>(past.where.step), c.why.c_str());
+    std::printf("| %s | %s | %.4g | %s | %.4g | %.2f | %.1f of the bound, step %llu | %s |\n", c.law.c_str(), c.scene.c_str(), c.stated,
+                c.bound_by.c_str(), found * c.stated, found, c.stopped, static_cast<unsigned long long>(past.where.step), c.why.c_str());
     std::fflush(stdout);
   }
 }
@@ -39,7 +40,8 @@ void print_laws(const char* name, const std::vector<Case>& cases) {
 template <class Integrator>
 void print_integrator(const char* name) {
   std::printf("| %s |", name);
-  for (const auto& c : {sound<Integrator>(), morris<Integrator>(), molteni_colagrossi<Integrator>(), heat<Integrator>("", "", support), springs<Integrator>(), dashpots<Integrator>(), drag<Integrator>()})
+  for (const auto& c : {sound<Integrator>(), morris<Integrator>(), molteni_colagrossi<Integrator>(), heat<Integrator>("", "", support),
+                        springs<Integrator>(), dashpots<Integrator>(), drag<Integrator>()})
     std::printf(" %s |", ratio(c).c_str());
   std::printf("\n");
   std::fflush(stdout);
@@ -65,7 +67,8 @@ int main() {
   several.push_back(sound_and_springs<Leapfrog>());
   several.back().scene += ", Leapfrog";
   print_laws("together", several);
-  std::printf("table: integrators\n| integrator | sound | Morris | density diffusion | heat | springs | dashpots | drag |\n|---|---|---|---|---|---|---|---|\n");
+  std::printf("table: integrators\n| integrator | sound | Morris | density diffusion | heat | springs | dashpots | drag |\n");
+  std::printf("|---|---|---|---|---|---|---|---|\n");
   print_integrator<ExtrapolatedVerlet>("ExtrapolatedVerlet");
   print_integrator<Leapfrog>("Leapfrog");
   print_integrator<SymplecticEuler>("SymplecticEuler");
