@@ -63,9 +63,11 @@ int main() {
   print_laws("fluids", fluids<ExtrapolatedVerlet>());
   print_laws("beads", beads<Leapfrog>());
   auto several = together<ExtrapolatedVerlet>();
-  several.push_back(sound_and_springs<ExtrapolatedVerlet>());
-  several.push_back(sound_and_springs<Leapfrog>());
-  several.back().scene += ", Leapfrog";
+  for (const auto& c : liquid_with_springs<ExtrapolatedVerlet>()) several.push_back(c);
+  for (auto c : liquid_with_springs<Leapfrog>()) {
+    c.scene += ", Leapfrog";
+    several.push_back(c);
+  }
   print_laws("together", several);
   std::printf("table: integrators\n| integrator | sound | Morris | density diffusion | heat | springs | dashpots | drag |\n");
   std::printf("|---|---|---|---|---|---|---|---|\n");

@@ -40,4 +40,8 @@ void check(const std::vector<Case>& cases) {
 TEST_CASE("fluids and heat: stable at 0.95 of the bound, and where it ends the blow-up is caught") { check(fluids<ExtrapolatedVerlet>()); }
 TEST_CASE("beads, bonds and forcings: stable at 0.95 of the bound, and where it ends the blow-up is caught") { check(beads<Leapfrog>()); }
 TEST_CASE("several laws that bound the step alike: together too they are stable at 0.95 of the bound") { check(together<ExtrapolatedVerlet>()); }
+TEST_CASE("springs in a liquid, whose sound extrapolates the density: stable at 0.95 of the bound, without viscosity too") {
+  check(liquid_with_springs<ExtrapolatedVerlet>());
+  check(liquid_with_springs<Leapfrog>());
+}
 TEST_CASE("the bound of sound with the other integrators") { check({sound<Leapfrog>(), sound<SymplecticEuler>()}); }

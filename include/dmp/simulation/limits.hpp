@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 #include <dmp/bond/concept.hpp>
+#include <dmp/core/math.hpp>
 #include <dmp/core/require.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/forcing/concept.hpp>
@@ -76,12 +77,13 @@ enum class BondKind { all, slow, fast };  ///< fast: the sub-stepped ones
 struct PairRates {
   double damping = 0.0;      ///< lambda [1/s]
   double oscillation = 0.0;  ///< omega^2 [1/s^2]
+  double sound = 0.0;        ///< 1/the bound of sound [1/s]
 };
 
 /// What bonds and forcings do to the particles of a group: omega^2 <= sum of f k/m and lambda <= sum of f c/m over the bonds of one
 /// particle, plus stiffness/m and damping rates of forcings (Gershgorin's circles of the stiffness matrix); f = 2, or 1 where the partner
 /// cannot move. What pair laws do adds to both: `pairs`. All together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping
-/// limit < 1.
+/// limit < 1; and where there is sound too, see integrator/concept.hpp.
 template <class Integrator, class Engine, class G>
 void limit_group(const Engine& engine, const G& g, double time, BondKind kind, const PairRates& pairs, sweep::StepLimit& limit) {
   if constexpr (particles::is_mobile<typename G::Mobility>) {
@@ -137,7 +139,12 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
       const double oscillation = Integrator::oscillation_limit / std::sqrt(squared), half = 0.5 * oscillation * per_damping;
       const bool springs = squared > 0.0;
       if (!springs && damping == 0.0) continue;
-      const double bound = springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
+      double bound = springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
+      if constexpr (requires { Integrator::coupled_limit; })
+        if (springs && pairs.sound > 0.0) {
+          const double sound = square(pairs.sound), undamped = 1.0 / std::sqrt(sound + squared / square(Integrator::coupled_limit));
+          bound = std::min(bound, std::max(undamped, (damping + drag + pairs.damping) / (Integrator::coupled_damping * sound)));
+        }
       if (bound >= shortest) continue;
       shortest = bound;
       if (!springs || half >= 0.5)
@@ -172,7 +179,7 @@ template <class Integrator, class Engine>
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_interaction<I>) {
       const std::size_t a = index_of(std::type_identity<typename I::A>{}), b = index_of(std::type_identity<typename I::B>{});
-      limit.damping = limit.oscillation = 0.0;
+      limit.damping = limit.oscillation = limit.sound = 0.0;
       const auto one = [&](const auto& law) {
         if constexpr (requires { law.step_limits(states[a], states[b], limit); }) law.step_limits(states[a], states[b], limit);
         else law.step_limits(detail::widest(states[a], states[b]), limit);
@@ -181,6 +188,7 @@ template <class Integrator, class Engine>
       for (const std::size_t group : {a, b}) {
         rates[group].damping = std::max(rates[group].damping, limit.damping);
         rates[group].oscillation = std::max(rates[group].oscillation, limit.oscillation);
+        rates[group].sound = std::max(rates[group].sound, limit.sound);
       }
     }
   });

@@ -76,7 +76,8 @@ struct WeaklyCompressible {
   /// law's damping must stay within what the integrator stands.
   void step_limits(const sweep::StepState& state, sweep::StepLimit& limit) const {
     const double h = kernel.support_radius;
-    limit.require_below(0.25 * h / (state.sound_speed + state.speed), "sound");
+    limit.sound = (state.sound_speed + state.speed) / (0.25 * h);
+    limit.require_below(1.0 / limit.sound, "sound");
     if (state.acceleration > 0.0) limit.resolve(0.25 * std::sqrt(h / state.acceleration), "acceleration");
     double nu = state.kinematic_viscosity;
     if constexpr (requires { viscosity.kinematic_viscosity(h, h, h); })

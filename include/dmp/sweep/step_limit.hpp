@@ -27,6 +27,7 @@ struct StepLimit {
   std::string stability_bound_by = "nothing";
   double damping = 0.0;      ///< lambda [1/s], at which laws damp velocities, all together
   double oscillation = 0.0;  ///< omega^2 [1/s^2], with which laws make positions oscillate, all together
+  double sound = 0.0;        ///< 1/the bound of sound [1/s]
 
   /// Beyond `bound` the law is unstable.
   void require_below(double bound, const std::string& law) {
