@@ -11,6 +11,9 @@ namespace dmp::integrator {
 ///                                                is the rate of the step before if the integrator `keeps_rates`
 ///   oscillation_limit                            stable for omega dt < this (undamped oscillator)
 ///   damping_limit, state_damping_limit           stable for lambda dt < this (dv/dt = -lambda v; ds/dt = -lambda s)
+///   coupled_limit, coupled_damping               optional. Springs on what also carries sound, whose state is extrapolated over the step,
+///                                                are stable for (dt/bound of sound)^2 + (omega dt/coupled_limit)^2 < 1, or where damping
+///                                                makes up for it: lambda > coupled_damping dt/(bound of sound)^2
 template <class I>
 concept Integrator = requires(double x, double v, const double a, double dt) {
   I::begin(x, v, a, dt);

@@ -12,6 +12,7 @@ namespace dmp::integrator {
 struct Leapfrog {
   static constexpr std::string_view name = "leapfrog";
   static constexpr double oscillation_limit = 2.0, damping_limit = 2.0, state_damping_limit = 0.28;
+  static constexpr double coupled_limit = 1.0, coupled_damping = 1.5;
   static constexpr bool keeps_rates = true;
 
   template <class Value>

@@ -10,6 +10,7 @@ namespace dmp::integrator {
 struct SymplecticEuler {
   static constexpr std::string_view name = "symplectic Euler";
   static constexpr double oscillation_limit = 2.0, damping_limit = 2.0, state_damping_limit = 0.28;
+  static constexpr double coupled_limit = 1.0, coupled_damping = 1.5;
   static constexpr bool keeps_rates = true;
 
   template <class Value>

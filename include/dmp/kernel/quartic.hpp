@@ -16,7 +16,8 @@ namespace dmp::kernel {
 template <int Dim>
 struct Quartic {
   static constexpr int dimension = Dim;
-  Required<double> support_radius;  ///< h [m], > 0
+  static constexpr double lattice_excess = 1.08;  ///< of the fastest damping over the integral of |F|, at h of about two spacings
+  Required<double> support_radius;                ///< h [m], > 0
 
   template <class T>
   [[nodiscard]] T value(const T& r) const noexcept {

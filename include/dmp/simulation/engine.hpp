@@ -25,7 +25,7 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
   }();
 
   static constexpr bool has_dashpots = Base::has_dashpots;
-  static_assert(!has_dashpots || std::is_same_v<Integrator, integrator::Leapfrog>, "dmp: implicit_bonds need integrator::Leapfrog");
+  static_assert(!has_dashpots || std::is_base_of_v<integrator::Leapfrog, Integrator>, "dmp: implicit_bonds need integrator::Leapfrog");
   static_assert(!has_dashpots || !has_substeps, "dmp: implicit_bonds and substepped_bonds do not go together in one scene");
 
   /// How often sub-stepped bonds are evaluated per step.

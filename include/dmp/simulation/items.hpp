@@ -98,7 +98,8 @@ template <class A, class B, class Law>
 }
 /// Bonds too stiff for the step of the scene: they are integrated in sub-steps, all other forces being kicks at the ends of the step
 /// (r-RESPA; M. Tuckerman, B. J. Berne, G. J. Martyna, J. Chem. Phys. 97 (1992) 1990, doi:10.1063/1.463137). Their bound then no longer
-/// limits the step of the scene. `substeps` 0: as many as their own bound asks for.
+/// limits the step of the scene. `substeps` 0: as many as their own bound asks for. Where the step comes just below a multiple of half a
+/// period of a fast bond, slow forces of omega_slow feed it, by up to (omega_slow dt)^2/(2 omega_fast dt) per step, unless it is damped.
 template <class A, class B, class Law>
 [[nodiscard]] auto substepped_bonds(const Law& law, std::vector<neighbours::Bond> list, int substeps = 0) {
   static_assert(bond::explain_bond_potential<Law>());

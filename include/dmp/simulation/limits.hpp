@@ -8,6 +8,7 @@
 #include <vector>
 #include <Eigen/Eigenvalues>
 #include <dmp/bond/concept.hpp>
+#include <dmp/core/math.hpp>
 #include <dmp/core/require.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/forcing/concept.hpp>
@@ -166,12 +167,20 @@ void add_hold(const Engine& engine, const Item&, double stiffness, double dampin
   });
 }
 
+/// What the pair laws of one interaction do to the particles of a group, the largest of all interactions.
+struct PairRates {
+  double damping = 0.0;      ///< lambda [1/s]
+  double oscillation = 0.0;  ///< omega^2 [1/s^2]
+  double sound = 0.0;        ///< 1/the bound of sound [1/s]
+};
+
 /// What bonds and forcings do to the particles of a group: omega^2 <= lambda_max(sum of f k/m n n^T) and lambda <= lambda_max(sum of
 /// f c/m n n^T) over the bonds of one particle, n their directions, plus stiffness/m and damping rates of forcings; f = 2, or 1 where the
-/// partner cannot move. From (u_i - u_j)^2 <= 2 (u_i^2 + u_j^2) along each bond; the cubic lattice reaches it. Spring and dashpot together
-/// are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1.
+/// partner cannot move. From (u_i - u_j)^2 <= 2 (u_i^2 + u_j^2) along each bond; the cubic lattice reaches it. What pair laws do adds to
+/// both: `pairs`. All together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1; and where there is sound too,
+/// see integrator/concept.hpp.
 template <class Integrator, class Engine, class G>
-void limit_group(const Engine& engine, const G& g, double time, BondKind kind, sweep::StepLimit& limit) {
+void limit_group(const Engine& engine, const G& g, double time, BondKind kind, const PairRates& pairs, sweep::StepLimit& limit) {
   if constexpr (particles::is_mobile<typename G::Mobility>) {
     std::vector<Hold<G::Dim>> hold;  // empty without bonds
     std::vector<double> forced;      // omega^2 of forcings; empty without any that have a stiffness
@@ -210,22 +219,31 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, s
               },
               active.item.laws);
     });
-    if (drag > 0.0) limit.require_below(Integrator::damping_limit / drag, "drag on " + g.name);
+    if (drag > 0.0) limit.require_below(Integrator::damping_limit / (drag + pairs.damping), "drag on " + g.name);
     double shortest = std::numeric_limits<double>::infinity();
     std::size_t where = 0;
-    enum { bond_dashpots, drags, bond_springs, forcing_springs } bound_by = bond_dashpots;
-    for (std::size_t i = 0; i < std::max(stiffness.size(), forced.size()); ++i) {
+    enum { bond_dashpots, drags, viscosities, bond_springs, forcing_springs, potentials } bound_by = bond_dashpots;
+    const std::size_t rows = std::max({stiffness.size(), forced.size(), std::size_t{pairs.oscillation > 0.0 ? 1u : 0u}});
+    for (std::size_t i = 0; i < rows; ++i) {
       const double bonds = stiffness.empty() ? 0.0 : stiffness[i], forcings = forced.empty() ? 0.0 : forced[i];
-      const double damping = dashpot.empty() ? 0.0 : dashpot[i], per_damping = (damping + drag) / Integrator::damping_limit;
-      const double oscillation = Integrator::oscillation_limit / std::sqrt(bonds + forcings), half = 0.5 * oscillation * per_damping;
-      const bool springs = bonds + forcings > 0.0;
+      const double damping = dashpot.empty() ? 0.0 : dashpot[i], squared = bonds + forcings + pairs.oscillation;
+      const double per_damping = (damping + drag + pairs.damping) / Integrator::damping_limit;
+      const double oscillation = Integrator::oscillation_limit / std::sqrt(squared), half = 0.5 * oscillation * per_damping;
+      const bool springs = squared > 0.0;
       if (!springs && damping == 0.0) continue;
-      const double bound = springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
+      double bound = springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
+      if constexpr (requires { Integrator::coupled_limit; })
+        if (springs && pairs.sound > 0.0) {
+          const double sound = square(pairs.sound), undamped = 1.0 / std::sqrt(sound + squared / square(Integrator::coupled_limit));
+          bound = std::min(bound, std::max(undamped, (damping + drag + pairs.damping) / (Integrator::coupled_damping * sound)));
+        }
       if (bound >= shortest) continue;
       shortest = bound;
       where = i;
-      if (!springs || half >= 0.5) bound_by = damping >= drag ? bond_dashpots : drags;
-      else bound_by = bonds >= forcings ? bond_springs : forcing_springs;
+      if (!springs || half >= 0.5)
+        bound_by = damping >= drag && damping >= pairs.damping ? bond_dashpots : drag >= pairs.damping ? drags : viscosities;
+      else
+        bound_by = bonds >= forcings && bonds >= pairs.oscillation ? bond_springs : forcings >= pairs.oscillation ? forcing_springs : potentials;
     }
     if (shortest == std::numeric_limits<double>::infinity()) return;
     std::string law;
@@ -234,6 +252,8 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, s
       case bond_springs: law = "bond stiffness of " + binding_bonds(engine, g, kind, where, false); break;
       case drags: law = "drag on " + g.name; break;
       case forcing_springs: law = "stiffness of a forcing on " + g.name; break;
+      case viscosities: law = "viscosity of " + g.name; break;
+      case potentials: law = "pair potential of " + g.name; break;
     }
     limit.require_below(shortest, law);
   }
@@ -247,27 +267,36 @@ template <class Integrator, class Engine>
   sweep::StepLimit limit;
   std::vector<sweep::StepState> states;
   engine.for_each_group([&](const auto& g) { states.push_back(detail::state_of<Integrator>(engine, g)); });
-  const auto state = [&]<class Tag>(std::type_identity<Tag>) {
+  std::vector<detail::PairRates> rates(states.size());
+  const auto index_of = [&]<class Tag>(std::type_identity<Tag>) {
     std::size_t index = 0, found = 0;
     engine.for_each_group([&](const auto& g) {
       if (std::is_same_v<typename std::remove_cvref_t<decltype(g)>::Tag, Tag>) found = index;
       ++index;
     });
-    return states[found];
+    return found;
   };
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_interaction<I>) {
-      const sweep::StepState a = state(std::type_identity<typename I::A>{}), b = state(std::type_identity<typename I::B>{});
+      const std::size_t a = index_of(std::type_identity<typename I::A>{}), b = index_of(std::type_identity<typename I::B>{});
+      limit.damping = limit.oscillation = limit.sound = 0.0;
       const auto one = [&](const auto& law) {
-        if constexpr (requires { law.step_limits(a, b, limit); }) law.step_limits(a, b, limit);
-        else law.step_limits(detail::widest(a, b), limit);
+        if constexpr (requires { law.step_limits(states[a], states[b], limit); }) law.step_limits(states[a], states[b], limit);
+        else law.step_limits(detail::widest(states[a], states[b]), limit);
       };
       std::apply([&](const auto&... law) { (one(law), ...); }, active.item.laws);
+      for (const std::size_t group : {a, b}) {
+        rates[group].damping = std::max(rates[group].damping, limit.damping);
+        rates[group].oscillation = std::max(rates[group].oscillation, limit.oscillation);
+        rates[group].sound = std::max(rates[group].sound, limit.sound);
+      }
     }
   });
+  std::size_t index = 0;
   engine.for_each_group([&](const auto& g) {
-    detail::limit_group<Integrator>(engine, g, time, without_substepped ? detail::BondKind::slow : detail::BondKind::all, limit);
+    detail::limit_group<Integrator>(engine, g, time, without_substepped ? detail::BondKind::slow : detail::BondKind::all, rates[index++],
+                                    limit);
   });
   return limit;
 }
@@ -284,7 +313,7 @@ template <class Integrator, class Engine>
         asked = std::max(asked, active.item.substeps);
       }
   });
-  engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, 0.0, detail::BondKind::fast, fast); });
+  engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, 0.0, detail::BondKind::fast, {}, fast); });
   const double needed = std::ceil(dt / (0.9 * fast.time_step));
   constexpr double most = 1e6;
   if (asked == 0 && !(needed <= most))

@@ -31,7 +31,7 @@ struct HeatConduction {
   }
   /// lambda = kappa_ij (integral of |F|)/(rho c): 20 D/h^2 in 2D inside a phase, with Lucy's kernel  [1/s].
   void step_limits(const sweep::StepState& a, const sweep::StepState& b, sweep::StepLimit& limit) const {
-    const double reach = kernel::radial_factor_integral(kernel) * Mean::twice(a.thermal_conductivity, b.thermal_conductivity);
+    const double reach = kernel::largest_radial_factor_sum(kernel) * Mean::twice(a.thermal_conductivity, b.thermal_conductivity);
     const double least_capacity = a.heat_capacity < b.heat_capacity ? a.heat_capacity : b.heat_capacity;
     if (reach > 0.0) limit.require_below(a.state_damping_limit * least_capacity / reach, "heat conduction");
   }

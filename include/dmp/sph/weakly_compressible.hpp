@@ -76,15 +76,16 @@ struct WeaklyCompressible {
   /// law's damping must stay within what the integrator stands.
   void step_limits(const sweep::StepState& state, sweep::StepLimit& limit) const {
     const double h = kernel.support_radius;
-    limit.require_below(0.25 * h / (state.sound_speed + state.speed), "sound");
+    limit.sound = (state.sound_speed + state.speed) / (0.25 * h);
+    limit.require_below(1.0 / limit.sound, "sound");
     if (state.acceleration > 0.0) limit.resolve(0.25 * std::sqrt(h / state.acceleration), "acceleration");
     double nu = state.kinematic_viscosity;
     if constexpr (requires { viscosity.kinematic_viscosity(h, h, h); })
       nu = viscosity.kinematic_viscosity(state.sound_speed, state.speed, h);
-    const double rate = viscosity.damping_rate(nu, h, kernel::radial_factor_integral(kernel), K::dimension);
-    if (rate > 0.0) limit.require_below(state.damping_limit / rate, "viscosity");
+    const double rate = viscosity.damping_rate(nu, h, kernel::largest_radial_factor_sum(kernel), K::dimension);
+    limit.damp(rate, state.damping_limit, "viscosity");
     if constexpr (requires { diffusion.damping_rate(h, h); })
-      limit.require_below(state.state_damping_limit / diffusion.damping_rate(h, kernel::radial_factor_integral(kernel)), "density diffusion");
+      limit.require_below(state.state_damping_limit / diffusion.damping_rate(h, kernel::largest_radial_factor_sum(kernel)), "density diffusion");
   }
 };
 

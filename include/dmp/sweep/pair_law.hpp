@@ -19,7 +19,8 @@ concept StatesItsBounds = requires(const L law, const StepState state, StepLimit
 ///   uses_velocity                   whether relative_velocity and approach are needed
 ///   cutoff()                        [m]; the law is exactly 0 beyond it
 ///   add(pair, i, j, sums)           adds what j does to i
-///   step_limits(state, limit)       states its bounds of the time step, from extremes over both groups; or
+///   step_limits(state, limit)       states its bounds of the time step, from extremes over both groups: what it does to velocities by
+///                                   limit.damp and limit.oscillate, which add up with bonds and forcings, the rest by require_below; or
 ///   step_limits(a, b, limit)        the same from the extremes over either group
 template <class L>
 concept PairLaw = std::is_trivially_copyable_v<L> && StatesItsBounds<L> && requires(const L law) {
@@ -64,7 +65,7 @@ struct PotentialForce {
   }
   /// omega dt < limit for a particle held by contacts on all sides: omega^2 <= 2 * 6 U''/m (Gershgorin).
   void step_limits(const StepState& state, StepLimit& limit) const {
-    limit.require_below(state.oscillation_limit / std::sqrt(12.0 * potential.largest_stiffness() / state.mass), "pair potential");
+    limit.oscillate(12.0 * potential.largest_stiffness() / state.mass, state.oscillation_limit, "pair potential");
   }
 };
 template <class P>

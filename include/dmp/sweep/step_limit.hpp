@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -24,6 +25,9 @@ struct StepLimit {
   std::string bound_by = "nothing";
   double stable_time_step = std::numeric_limits<double>::infinity();  ///< [s], stability alone: a larger step is refused
   std::string stability_bound_by = "nothing";
+  double damping = 0.0;      ///< lambda [1/s], at which laws damp velocities, all together
+  double oscillation = 0.0;  ///< omega^2 [1/s^2], with which laws make positions oscillate, all together
+  double sound = 0.0;        ///< 1/the bound of sound [1/s]
 
   /// Beyond `bound` the law is unstable.
   void require_below(double bound, const std::string& law) {
@@ -32,6 +36,16 @@ struct StepLimit {
       stable_time_step = bound;
       stability_bound_by = law;
     }
+  }
+  /// A law that damps velocities at `rate` [1/s]: stable for rate dt < `most`, less what others damp.
+  void damp(double rate, double most, const std::string& law) {
+    damping += rate;
+    if (rate > 0.0) require_below(most / rate, law);
+  }
+  /// A law that makes positions oscillate with omega^2 = `rate` [1/s^2]: stable for omega dt < `most`, less what others add.
+  void oscillate(double rate, double most, const std::string& law) {
+    oscillation += rate;
+    if (rate > 0.0) require_below(most / std::sqrt(rate), law);
   }
   /// Beyond `bound` the law is badly resolved, though not unstable: steps chosen by the scene respect it, a user's own may exceed it.
   void resolve(double bound, const std::string& law) {

@@ -21,9 +21,11 @@ struct Monaghan {
     return (-(Dim + 2.0)) * Mean::twice(i.dynamic_viscosity, j.dynamic_viscosity) * pair.approach /
            (i.density * j.density * (pair.distance_squared + softening));
   }
-  /// lambda = 2 nu (integral of |F|)(d + 2)/d: 40 nu/h^2 in 2D, 35 nu/h^2 in 3D with Lucy's kernel  [1/s].
+  /// lambda = 2 nu (integral of |F|)((d + 2)/d)(2 - 1/d): 60 nu/h^2 in 2D, 58 nu/h^2 in 3D with Lucy's kernel  [1/s]. One particle that
+  /// moves through others at rest is damped without the last factor; where those along the line of its motion move against it, up to as
+  /// much faster (the largest eigenvalues of lattices, tests/viscosity/lattice_rates_test.cpp).
   [[nodiscard]] double damping_rate(double nu, double, double radial_factor_integral, int) const noexcept {
-    return 2.0 * nu * radial_factor_integral * (Dim + 2.0) / Dim;
+    return 2.0 * nu * radial_factor_integral * ((Dim + 2.0) / Dim) * (2.0 - 1.0 / Dim);
   }
 };
 
