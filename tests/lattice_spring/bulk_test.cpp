@@ -77,7 +77,7 @@ struct Beads {};
 enum class Rule { backward_euler, midpoint };
 
 /// Relative L2 of the strain over 5 relaxation times against (sigma/E)(1 - exp(-t/tau)).
-double creep_error(int cells, Rule rule, int steps_per_tau) {
+double creep_error(int cells, Rule rule, int steps_per_tau, double tolerance = 1e-5) {
   const auto body = cuboid(cells);
   constexpr double tau = 1.0, last_strain = 1e-5;
   const double dt = tau / steps_per_tau;
@@ -97,7 +97,7 @@ double creep_error(int cells, Rule rule, int steps_per_tau) {
     auto scene = dmp::simulation::scene<dmp::integrator::Leapfrog>(
         dmp::geometry::Box<3>::unbounded(), dmp::simulation::group<Beads>("beads", dmp::particles::Mobile{}, start, 1.0),
         dmp::simulation::bonds<Beads, Beads>(step.law(), step.bonds()), dmp::simulation::forced_by<Beads>(traction));
-    relax(scene, {.force_tolerance = 1e-5 * traction.stress});
+    relax(scene, {.force_tolerance = tolerance * traction.stress});
     const auto& found = scene.group<Beads>().positions();
     for (std::size_t i = 0; i < found.size(); ++i)  // half a step and the same again
       points.positions[i] = rule == Rule::midpoint ? Vector<3>(2.0 * found[i] - points.positions[i]) : found[i];
@@ -125,4 +125,4 @@ TEST_CASE("A15: a Kelvin-Voigt cuboid of 10^3 cells creeps as one bond does, (si
   CHECK(order_of_midpoint == doctest::Approx(2.0).epsilon(0.05));
 }
 
-TEST_CASE("slow: A15: creep of 40^3 cells to 1e-3") { CHECK(creep_error(40, Rule::midpoint, 6) <= 1e-3); }
+TEST_CASE("slow: A15: creep of 40^3 cells to 1e-3") { CHECK(creep_error(40, Rule::midpoint, 6, 1e-4) <= 1e-3); }
