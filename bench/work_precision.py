@@ -10,9 +10,7 @@ radius is 2.6 spacings for every kernel.
 """
 import argparse
 import csv
-import json
 import math
-import re
 import statistics
 import subprocess
 import sys
@@ -20,7 +18,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import Failure, execute
+from processes import Failure, execute, replace_table, result_of
 
 KERNELS = ("Lucy", "CubicSpline", "WendlandC2", "WendlandC4")
 RUNS = 3
@@ -65,10 +63,7 @@ def measure(case, kernel, resolution, programs, folder):
     for _ in range(RUNS):
         # Bounds are those of Lucy's kernel: others may miss them (status 1).
         text, _ = execute([program, "--resolution", str(resolution), "--threads", "1", "--output", folder], statuses=(0, 1))
-        found = re.search(r"^result: (\{.*\})$", text, re.MULTILINE)
-        if not found:
-            raise Failure(f"{program} printed no result")
-        result = json.loads(found.group(1))
+        result = result_of(text)
         seconds.append(result["wall_seconds"])
     error = result["errors"][case.error.format(N=resolution)]["value"]
     return Point(case.name, kernel, resolution, result["particles"], result["steps"], error, statistics.median(seconds))
@@ -136,13 +131,8 @@ def main():
     try:
         points = curves(options.programs)
         page = options.docs / "accuracy.md"
-        text = page.read_text()
         for case in CASES:
-            text, count = re.subn(rf"(<!-- table: {case.name} -->\n).*?(<!-- end -->)",
-                                  lambda found: found.group(1) + table(points, case) + "\n" + found.group(2), text, flags=re.DOTALL)
-            if count != 1:
-                raise Failure(f"{page} needs the comments <!-- table: {case.name} --> and <!-- end --> once")
-        page.write_text(text)
+            replace_table(page, case.name, table(points, case))
         write_csv(points, options.docs / "accuracy.csv")
         draw(points, options.docs / "accuracy.png")
     except Failure as failure:
