@@ -101,14 +101,14 @@ void print_all(const std::string& of, const Body<3>& body) {
   const double squared = largest_eigenvalue(body), omega = std::sqrt(squared);
   const double springs = lattice_spring::stable_time_step(body, 1.0, 1.0);
   print("Harmonic", of, omega, explicitly, bond::Harmonic{.stiffness = 1.0}, body, springs, 2.0 / omega);
-  // Ratios c/k in 1/omega, so that damping is light and heavy on both bodies.
+  // Ratios tau = c/k in 1/omega, so that damping is light and heavy on both bodies.
   for (const double ratio : {0.1, 10.0}) {
     const double tau = ratio / omega;
-    const std::string with = " c/k = " + to_text(ratio) + "/omega";
+    const std::string with = "; tau = " + to_text(ratio) + "/omega";
     const bond::KelvinVoigt damped{.stiffness = 1.0, .damping = tau};
-    print("KelvinVoigt in bonds" + with, of, omega, explicitly, damped, body, lattice_spring::stable_time_step(body, 1.0, 1.0, tau),
+    print("Kelvin-Voigt in `bonds`" + with, of, omega, explicitly, damped, body, lattice_spring::stable_time_step(body, 1.0, 1.0, tau),
           std::sqrt(tau * tau + 4.0 / squared) - tau);
-    print("KelvinVoigt in implicit_bonds" + with, of, omega, implicitly, damped, body, springs, 2.0 / omega);
+    print("Kelvin-Voigt in `implicit_bonds`" + with, of, omega, implicitly, damped, body, springs, 2.0 / omega);
     // Eigenvalue -1 of the step: omega_e^2 dt^2 + omega_m^2 dt^2 tanh(h/2)/(h/2) = 4, h = dt/tau.
     const auto stable = [&](double share_of_branch) {
       return [=](double dt) {
@@ -117,7 +117,7 @@ void print_all(const std::string& of, const Body<3>& body) {
       };
     };
     print("Maxwell" + with, of, omega, explicitly, bond::Maxwell{.stiffness = 1.0, .damping = tau}, body, springs, largest(stable(1.0)));
-    print("StandardLinearSolid" + with, of, omega, explicitly,
+    print("standard linear solid" + with, of, omega, explicitly,
           bond::StandardLinearSolid{.stiffness = 0.5, .branch_stiffness = 0.5, .branch_damping = 0.5 * tau}, body, springs,
           largest(stable(0.5)));
   }

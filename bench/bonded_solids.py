@@ -21,7 +21,7 @@ from pathlib import Path
 from processes import Failure, replace_table, result_of, run
 
 BALLS = (8, 12, 16, 24, 32)    # R/l
-CUBES = (6, 8, 10, 14, 20)     # edges [a0]
+CUBES = (6, 8, 10, 14)        # edges [a0]
 VARIANTS = ("k const", "kL const", "kL-tune", "ikL-tune")
 PRESSURE = 3 * 100 * 0.01 / 1.01**2  # Cauchy stress of a cube with K = 100, expanded by 1 % [k0/a0]
 
@@ -74,9 +74,9 @@ def networks(program, folder):
 
 
 def limits(program):
-    lines = ["| body | bond law | `step_limit()` of a scene | `lattice_spring::stable_time_step` | exact | measured |", "|---|---|---|---|---|---|"]
+    lines = ["| body | bond law | `step_limit()` of a scene | `stable_time_step` of a body | exact | measured |", "|---|---|---|---|---|---|"]
     for row in csv.DictReader(run([program]).text.splitlines()):
-        steps = (f"{float(row[name]):.3g}" for name in ("scene", "stable_time_step", "exact", "measured"))
+        steps = (f"{float(row[name]):.4g}" for name in ("scene", "stable_time_step", "exact", "measured"))
         lines.append(f"| {row['body']} | {row['law']} | " + " | ".join(steps) + " |")
     return "\n".join(lines)
 
@@ -101,8 +101,9 @@ def write_csv(curves, path):
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["curve", "size", "beads", "error", "scatter of the stress", "run time [s]", "order"])
         for p in (point for points in curves for point in points):
-            writer.writerow([p.curve, p.size, p.beads, f"{p.error:.4g}", "" if math.isnan(p.scatter) else f"{p.scatter:.4g}", f"{p.seconds:.3g}",
-                             "" if p.order is None else f"{p.order:.2f}"])
+            scatter = "" if math.isnan(p.scatter) else f"{p.scatter:.4g}"
+            order = "" if p.order is None else f"{p.order:.2f}"
+            writer.writerow([p.curve, p.size, p.beads, f"{p.error:.4g}", scatter, f"{p.seconds:.3g}", order])
 
 
 def draw(ball, nets, path):

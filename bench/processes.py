@@ -50,8 +50,8 @@ def result_of(text):
 
 def replace_table(page, name, table):
     """Puts a table between the comments `<!-- table: NAME -->` and `<!-- end -->` of a page (its path)."""
-    text, count = re.subn(rf"(<!-- table: {re.escape(name)} -->\n).*?(<!-- end -->)", lambda found: found.group(1) + table + "\n" + found.group(2),
-                          page.read_text(), flags=re.DOTALL)
+    text, count = re.subn(rf"(<!-- table: {re.escape(name)} -->\n).*?(<!-- end -->)",
+                          lambda found: found.group(1) + table + "\n" + found.group(2), page.read_text(), flags=re.DOTALL)
     if count != 1:
         raise Failure(f"{page} needs the comments <!-- table: {name} --> and <!-- end --> once")
     page.write_text(text)

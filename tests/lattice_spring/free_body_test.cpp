@@ -1,4 +1,4 @@
-// A16: a free ball of Kelvin-Voigt bonds that spins and vibrates: momentum, angular momentum, and where its energy goes.
+// A16: bodies of Kelvin-Voigt bonds: a free ball that spins and vibrates keeps both momenta; where energy goes, also that of plates.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <dmp/bond.hpp>
+#include <dmp/forcing.hpp>
 #include <dmp/integrator.hpp>
 #include <dmp/lattice_spring.hpp>
 #include <dmp/simulation.hpp>
@@ -101,6 +102,38 @@ void check(int beads_in_radius, double until) {
   CHECK(std::log2(explicit_coarse / explicit_fine) == doctest::Approx(1.0).epsilon(0.05));
 }
 
+/// Kinetic and stored energy and what dashpots took, less the work of two plates that approach, as a fraction of this work.
+double balance_of_plates(const auto& scheme, double step) {
+  auto body = lattice_block(CubicLattice{.spacing = 1.0}, {4, 4, 4});
+  measure_rest_lengths<3>(body.bonds, body.points.positions);
+  const dmp::forcing::Plane<3> below{.normal = {{0.0, 0.0, 1.0}}, .position = 0.0, .strength = 10.0},
+      above{.normal = {{0.0, 0.0, -1.0}}, .position = -4.0, .strength = 10.0, .motion = {.speed = 0.02}};
+  auto block = scene<dmp::integrator::Leapfrog>(dmp::geometry::Box<3>::unbounded(),
+                                                group<Beads>("beads", dmp::particles::Mobile{}, body.points, 1.0), scheme(body.bonds),
+                                                forced_by<Beads>(below, above));
+  double work = 0.0, lost = 0.0, power_before = 0.0;
+  Sums last;
+  block.every(step, [&](const auto& s) {
+    const Sums now = sums_of(s, body.bonds);
+    double power = 0.0;
+    for (std::size_t i = 0; i < body.points.positions.size(); ++i) {
+      const Vector<3>&x = s.template group<Beads>().positions()[i], &v = s.template group<Beads>().template get<dmp::field::Velocity>()[i];
+      const dmp::forcing::Subject<3> bead{
+          .position = {{x[0], x[1], x[2]}}, .velocity = {{v[0], v[1], v[2]}}, .mass = 1.0, .time = s.time()};
+      power += (below.acceleration(bead).component[2] + above.acceleration(bead).component[2]) * v[2];
+    }
+    if (s.step() > 0) {
+      work += 0.5 * step * (power_before + power);
+      lost += 0.5 * step * (last.drain + now.drain);
+    }
+    power_before = power;
+    last = now;
+  });
+  block.run({.until = 19.2, .time_step = step});
+  CHECK(lost > 0.01 * work);
+  return (last.kinetic + last.stored + lost - work) / work;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -109,3 +142,14 @@ TEST_CASE(
   check(8, 24.0);  // it turns by 1.1 rad
 }
 TEST_CASE("slow: A16: the free ball with R = 16 l") { check(16, 48.0); }
+
+TEST_CASE(
+    "A16: the work of plates on a block goes into motion, springs and dashpots to 1e-3, first order, second if dashpots are solved for") {
+  const double coarse = balance_of_plates(solved_for, 0.08), fine = balance_of_plates(solved_for, 0.04);
+  CHECK(std::fabs(coarse) <= 1e-3);
+  CHECK(std::log2(coarse / fine) == doctest::Approx(2.0).epsilon(0.05));
+  const double explicit_coarse = balance_of_plates(half_step, 0.04), explicit_fine = balance_of_plates(half_step, 0.02);
+  CHECK(std::fabs(explicit_fine) <= 1e-3);
+  CHECK(std::log2(explicit_coarse / explicit_fine) == doctest::Approx(1.0).epsilon(0.05));
+  MESSAGE(coarse << " " << fine << " " << explicit_coarse << " " << explicit_fine);
+}
