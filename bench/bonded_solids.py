@@ -84,14 +84,14 @@ def limits(program):
 def ball_table(points):
     lines = ["| R/l | beads | error of E | order | run time [s] |", "|---|---|---|---|---|"]
     for p in points:
-        lines.append(f"| {p.size} | {p.beads} | {100 * p.error:.2g} % | {'' if p.order is None else f'{p.order:.1f}'} | {p.seconds:.2g} |")
+        lines.append(f"| {p.size} | {p.beads} | {100 * p.error:.2g} % | {'' if p.order is None else f'{p.order:.1f}'} | {p.seconds:.3g} |")
     return "\n".join(lines)
 
 
 def network_table(curves):
     lines = ["| beads | " + " | ".join(VARIANTS) + " |", "|---|" + "---|" * len(VARIANTS)]
     for points in zip(*curves):
-        cells = (f"{100 * p.error:.2g} %, scatter {100 * p.scatter:.2g} %, in {p.seconds:.2g} s" for p in points)
+        cells = (f"{100 * p.error:.2g} %, scatter {100 * p.scatter:.2g} %, in {p.seconds:.3g} s" for p in points)
         lines.append(f"| {points[0].beads} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
