@@ -21,7 +21,7 @@ constexpr double radius = 0.4e-3;
 
 Body<3> ball_of_lattice(const CubicLattice& lattice) {
   // doc: solid-lattice
-  const geometry::Ball<3> ball{.centre = {0.0, 0.0, 0.0}, .radius = radius};
+  const geometry::Ball<3> ball{.centre = {0.0, 0.0, 0.0}, .radius = (1.0 - 1e-6) * radius};  // no bead on the very surface
   const geometry::Cuboid<3> around{.lower = {-radius, -radius, -radius}, .upper = {radius, radius, radius}};
   Body<3> body = lattice_body(lattice, around, ball);  // points and bonds
   measure_rest_lengths<3>(body.bonds, body.points.positions);  // as the scene would at its start
