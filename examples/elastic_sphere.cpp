@@ -185,6 +185,12 @@ int run(const example::Options& options) {
   // Ordered: Young's modulus 2.5 k/l; k l is the unit of force
   const auto modulus = [](const Found& found, int n) { return found.fit.youngs_modulus / (2.5 * stiffness * n / radius); };
   const auto middle = [](double value, double low, double high) { return value - 0.5 * (low + high); };
+  if (const int n = options.resolution; n > 0) {
+    result.resolution = "R = " + std::to_string(n) + " l";
+    result.error("A4, " + result.resolution + ", q1: E/E_theory - 1", modulus(lattice_ball(n, q1, folder, result), n) - 1.0, 3.2 / n,
+                 "first order, from 0.80 at R = 16 l");
+    return result.print();
+  }
   {
     const Found found = lattice_ball(16, q1, folder, result);
     result.error("A4, R = 16 l, q1: E/E_theory - 0.875", middle(modulus(found, 16), 0.80, 0.95), 0.075, "0.80 to 0.95");
@@ -256,7 +262,10 @@ int run(const example::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::guarded("elastic_sphere", run,
-                          example::options(argc, argv, "elastic_sphere",
-                                           "An elastic ball of beads and springs between two plates, against Hertz (A4, A5, A6, A7)."));
+  return example::guarded(
+      "elastic_sphere", run,
+      example::options(
+          argc, argv, "elastic_sphere",
+          "An elastic ball of beads and springs between two plates, against Hertz (A4, A5, A6, A7). Resolution: R/l of one ordered ball.",
+          6));
 }

@@ -19,7 +19,8 @@ namespace dmp::lattice_spring {
 ///   tension at the end of the step = k' (L - L')
 /// with one stiffness k' for all bonds and a rest length L' of each that knows its past, so a step in time is a state of rest of a body
 /// of such springs (simulation::relax). The branch force q beside the spring k (L - L0) steps as q <- d q + g (L - L_before):
-///   Kelvin-Voigt           d = 0, g = c/dt: backward Euler, of first order
+///   Kelvin-Voigt           d = 0, g = c/dt: backward Euler, of first order; the midpoint rule, of second, if made with dt/2 and advanced
+///                          to 2 x - (x before) from each state of rest x
 ///   standard linear solid  d = e^(-h), g = k_m (1 - e^(-h))/h, h = dt k_m/c_m: as bond::Maxwell, exact for a constant rate of length
 /// and k' = k + g, L' = (k L0 + g L_before - d q)/k'.
 ///   InertiaFreeStep<3> step(law, dt, body.bonds, x);   for each step: relax a scene with bonds<G, G>(step.law(), step.bonds()), then

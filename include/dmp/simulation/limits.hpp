@@ -135,10 +135,10 @@ template <int Dim>
   else return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>().computeDirect(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[Dim - 1];
 }
 
-/// Adds what the bonds of one item do to the particles of a group as they stand now: f k/m n n^T, f c/m n n^T, and across the bond at most
-/// f k/m (1 - r0/r), from its tension. A bond of length zero may act in any direction.
+/// Adds what the bonds of one item do to the particles of a group as they stand now: f k/m n n^T, f c/m n n^T, and across a bond under
+/// tension f T/(m r) (1 - n n^T). A bond of length zero may act in any direction.
 template <class Engine, class Item, class G, class Partners>
-void add_hold(const Engine& engine, const Item&, double stiffness, double damping, const neighbours::BondList& list, const G& g,
+void add_hold(const Engine& engine, const Item& item, double stiffness, double damping, const neighbours::BondList& list, const G& g,
               const Partners& partners, std::vector<Hold<G::Dim>>& hold) {
   constexpr int Dim = G::Dim;
   constexpr bool same = std::is_same_v<G, Partners>;
@@ -152,9 +152,14 @@ void add_hold(const Engine& engine, const Item&, double stiffness, double dampin
         const double squared = apart.squaredNorm(), weight = bonds.weight[k * bonds.weight_step];
         using Matrix = Eigen::Matrix<double, Dim, Dim>;
         const Matrix all_ways = weight * Matrix::Identity(), along = squared > 0.0 ? Matrix(weight / squared * apart * apart.transpose()) : all_ways;
-        double across = 1.0;
-        if constexpr (!bond::HasMemory<decltype(Item::law)>)
-          across = squared > 0.0 ? std::max(0.0, 1.0 - bonds.rest_length[k] / std::sqrt(squared)) : 0.0;
+        double across = 0.0;  // of the stiffness
+        if (squared > 0.0 && stiffness > 0.0) {
+          bond::Remembering<bond::MovingStretch<double>, double> seen{};
+          seen.length = std::sqrt(squared);
+          seen.rest_length = bonds.rest_length[k];
+          if constexpr (bond::HasMemory<decltype(Item::law)>) seen.memory = list.memory_at(i, k);
+          across = std::max(0.0, item.law.tension(seen) / (item.law.largest_stiffness() * seen.length));
+        }
         const Hold<Dim> one{stiffness * ((1.0 - across) * along + across * all_ways), damping * along};
         const auto add = [&one](Hold<Dim>& to) {
           to.springs += one.springs;

@@ -68,10 +68,10 @@ template <class Tag, class Scene, class Law>
 /// Force [N] with which bonds to other groups pull at a group as a whole: what its clamp must hold. Of the tension as it is now, that of
 /// dashpots and memories among it.
 template <class Tag, class Scene>
-[[nodiscard]] Vector<Scene::dimension> bond_load(Scene& scene) {
+[[nodiscard]] Vector<Scene::dimension> bond_load(const Scene& scene) {
   constexpr int dim = Scene::dimension;
   Vector<dim> load = Vector<dim>::Zero();
-  scene.engine().for_each_item([&](auto& active) {
+  scene.engine().for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_bonds<I>)
       if constexpr (std::is_same_v<typename I::A, Tag> != std::is_same_v<typename I::B, Tag>) {
@@ -88,7 +88,7 @@ template <class Tag, class Scene>
           seen.length_rate =
               apart.dot(scene.engine().seen_velocity(a, one.i, 0.0) - scene.engine().seen_velocity(b, one.j, 0.0)) / length;
           if constexpr (bond::HasMemory<decltype(I::law)>)
-            seen.memory = scene.engine().look_up(active, one, [](auto& list, std::size_t i, std::size_t entry) { return list.memory_of(i).memory[entry]; });
+            seen.memory = scene.engine().look_up(active, one, [](const auto& list, std::size_t i, std::size_t k) { return list.memory_at(i, k); });
           double tension = active.item.law.tension(seen);
           if constexpr (requires { active.item.law.dashpot; }) tension += active.item.law.dashpot.tension(seen);
           load += (std::is_same_v<typename I::A, Tag> ? -1.0 : 1.0) * one.weight * tension / length * apart;
