@@ -103,6 +103,24 @@ template <class I>
   return largest;
 }
 
+/// Largest |x| in the last steps of an oscillator from x = 1 that also drives a state, which acts back weakly: as a spring in a liquid.
+template <class I>
+[[nodiscard]] double swing(double oscillation, int steps) {  // omega dt
+  double x = 1.0, v = 0.0, s = 0.0, rate = 0.0, previous = 0.0, a = -oscillation * oscillation, largest = 0.0;
+  for (int n = 0; n < steps && largest < 1e30; ++n) {
+    I::begin(x, v, a, 1.0);
+    I::begin_state(s, rate, 1.0);
+    const double seen = I::seen_state(s, rate, previous, 1.0), velocity = I::seen(v, a, 1.0);
+    previous = rate;
+    rate = velocity;
+    a = -oscillation * oscillation * x - 0.01 * seen;
+    I::end(v, a, 1.0);
+    I::end_state(s, rate, 1.0);
+    if (n >= steps - 10 || std::fabs(x) > 1e30) largest = std::max(largest, std::fabs(x));
+  }
+  return largest;
+}
+
 /// |v| after `steps` steps of dv/dt = -lambda v from v = 1.
 template <class I>
 [[nodiscard]] double speed_left(double damping, int steps) {  // lambda dt
@@ -215,6 +233,8 @@ void check_integrator_laws(const Claims& claims) {
     CHECK(test::loudness<I>(0.1, 100000) < 2.0);
     CHECK(test::loudness<I>(0.95 * claims.sound_limit, 10000) < 2.0);
     CHECK(test::loudness<I>(1.05 * claims.sound_limit, 10000) > 1e10);
+    CHECK(test::swing<I>(0.95 * I::coupled_limit, 40000) < 1.0);
+    CHECK(test::swing<I>(1.05 * I::coupled_limit, 40000) > 1e3);
   } else {
     CHECK(test::loudness<I>(0.1, 20000) > 1e10);
   }

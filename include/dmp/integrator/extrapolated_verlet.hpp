@@ -15,7 +15,7 @@ namespace dmp::integrator {
 struct ExtrapolatedVerlet {
   static constexpr std::string_view name = "extrapolated-velocity Verlet";
   static constexpr double oscillation_limit = 2.0, damping_limit = 1.0, state_damping_limit = 0.5;
-  static constexpr double coupled_limit = 1.41, coupled_damping = 0.75;
+  static constexpr double coupled_limit = 1.0, coupled_damping = 0.75;
   static constexpr bool keeps_rates = true;
 
   template <class Value>
