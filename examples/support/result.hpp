@@ -8,7 +8,7 @@
 
 namespace example {
 
-/// What a run is worth: its errors against what is known, its cost, and the law that bound its time step.
+/// What a run is worth: its errors against what is known, its cost (0 where not measured), and the law that bound its time step.
 ///   Result result{.example = "poiseuille", .test_case = "VISC-1"};
 ///   result.error("L2 of the velocity profile", error, 0.55 / rows, "series solution");
 ///   return result.print();
@@ -21,7 +21,7 @@ struct Result {
   std::string example{}, test_case{}, resolution{};
   std::size_t particles = 0;
   std::uint64_t steps = 0;
-  double wall_seconds = 0.0, particle_steps = 0.0, bytes_per_particle = 0.0;
+  double wall_seconds = 0.0, processor_seconds = 0.0, particle_steps = 0.0, bytes_per_particle = 0.0;
   std::string step_bound_by{};
   std::vector<Error> errors{};
 
@@ -33,6 +33,7 @@ struct Result {
   void add(const Report& report) {
     steps += report.steps;
     wall_seconds += report.wall_seconds;
+    processor_seconds += report.processor_seconds;
     particle_steps += report.particle_steps;
     step_bound_by = report.step_bound_by;
   }
