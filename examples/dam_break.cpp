@@ -294,8 +294,11 @@ int run(const example::Options& options) {
   const io::OutputFolder folder(options.output);
   example::Result result{.example = "dam_break", .test_case = "Martin and Moyce; SPHERIC 2",
                          .resolution = to_text(2 * across) + " particles in the height of the column, " + to_text(deep) + " in that of the reservoir"};
+  if (options.resolution > 0) {  // the column alone, until the front has come farther than in the experiment
+    column(across, 5.0, folder, result);
+    return result.print();
+  }
   column(across, quick ? 5.0 : 12.0, folder, result);
-  if (options.resolution > 0) return result.print();  // of the column alone
   reservoir(deep, quick ? 1.02 : full ? 3.0 : 1.2, folder, result);
   return result.print();
 }
