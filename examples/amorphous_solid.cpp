@@ -413,7 +413,7 @@ int run(const example::Options& options) {
   if (options.resolution > 0) {
     cubes(options.resolution, seeds, false, folder, result);
     result.wall_seconds = seconds() - start;
-    return result.print();
+    return result.print(folder);
   }
   cubes(10.0, seeds, full, folder, result);
   if (full) cubes(20.0, 1, false, folder, result);

@@ -288,10 +288,14 @@ void reservoir(int deep, double end, const io::OutputFolder& folder, example::Re
 
 int run(const example::Options& options) {
   const bool quick = options.size == example::Size::quick, full = options.size == example::Size::full;
-  const int across = quick ? 12 : full ? 50 : 24, deep = quick ? 10 : full ? 40 : 20;
+  const int across = options.resolutions({12}, {24}, {50}).front(), deep = quick ? 10 : full ? 40 : 20;
   const io::OutputFolder folder(options.output);
   example::Result result{.example = "dam_break", .test_case = "Martin and Moyce; SPHERIC 2",
                          .resolution = to_text(2 * across) + " particles in the height of the column, " + to_text(deep) + " in that of the reservoir"};
+  if (options.resolution > 0) {  // the column alone, until the front has come farther than in the experiment
+    column(across, 5.0, folder, result);
+    return result.print(folder);
+  }
   column(across, quick ? 5.0 : 12.0, folder, result);
   reservoir(deep, quick ? 1.02 : full ? 3.0 : 1.2, folder, result);
   return result.print(folder);
@@ -300,5 +304,6 @@ int run(const example::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::guarded("dam_break", run, example::options(argc, argv, "dam_break", "Dam breaks: a collapsing column (2D), a reservoir over a box (3D); compared with experiments."));
+  return example::guarded("dam_break", run, example::options(argc, argv, "dam_break", "Dam breaks: a collapsing column (2D), a reservoir over a box (3D); compared with experiments.",
+                                            {.least_resolution = 8}));
 }

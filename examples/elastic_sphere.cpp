@@ -189,7 +189,7 @@ int run(const example::Options& options) {
     result.resolution = "R = " + std::to_string(n) + " l";
     result.error("A4, " + result.resolution + ", q1: E/E_theory - 1", modulus(lattice_ball(n, q1, folder, result), n) - 1.0, 3.2 / n,
                  "first order, from 0.80 at R = 16 l");
-    return result.print();
+    return result.print(folder);
   }
   {
     const Found found = lattice_ball(16, q1, folder, result);

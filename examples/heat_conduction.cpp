@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <dmp/dmp.hpp>
 
-#include "support/kernel.hpp"
+#include "support/choices.hpp"
 #include "support/options.hpp"
 #include "support/result.hpp"
 
@@ -72,7 +72,7 @@ template <class Mean>
 void two_slabs(int rows, const io::OutputFolder& folder, example::Result& result, const std::array<double, 3>& bounds) {
   const double spacing = 1.0 / (rows + 0.5);  // the first row of a face lies on it, the interface midway between two rows
   const Solid left{0.6, 1000.0, 4180.0}, right{0.0255, 1000.0, 4180.0 * 0.0255 / 0.6};  // the same diffusivity: the same time to rest
-  const sph::HeatConduction<example::Kernel<2>, Mean> conduction{.kernel = {.support_radius = 2.6 * spacing}};
+  const sph::HeatConduction<kernel::Lucy<2>, Mean> conduction{.kernel = {.support_radius = 2.6 * spacing}};
   const double height = rows_across * spacing, end = (rows + 3) * spacing;
   const geometry::Box<2> box{.lower = {-end, 0.0}, .upper = {end, height}, .periodic = {false, true}};
   const double mass = 1000.0 * spacing * spacing;
@@ -121,7 +121,7 @@ void two_half_spaces(int rows, const io::OutputFolder& folder, example::Result& 
   constexpr double length = 0.1, end_time = 15.625;
   constexpr Solid left{10.0, 1000.0, 1000.0}, right{1.0, 100.0, 1000.0};
   const double spacing = length / rows, support_radius = 2.6 * spacing;
-  const sph::HeatConduction<example::Kernel<2>, Mean> conduction{.kernel = {.support_radius = support_radius}};
+  const sph::HeatConduction<example::Kernel<kernel::Lucy<2>>, Mean> conduction{.kernel = {.support_radius = support_radius}};
   const geometry::Box<2> box{.lower = {-length, 0.0}, .upper = {length, rows_across * spacing}, .periodic = {false, true}};
   auto scene = simulation::scene<integrator::LammpsVerlet>(
       box, group<Left>("left", Stationary{}, strip(spacing, -rows, 0), left.density * spacing * spacing),
@@ -152,7 +152,7 @@ void two_half_spaces(int rows, const io::OutputFolder& folder, example::Result& 
 void one_phase(const io::OutputFolder& folder, example::Result& result) {
   constexpr double spacing = 0.01;
   constexpr Solid solid{1e-5, 0.1, 1.0};  // diffusivity 1e-4 m^2/s
-  const sph::HeatConduction<example::Kernel<2>> conduction{.kernel = {.support_radius = 0.02}};
+  const sph::HeatConduction<kernel::Lucy<2>> conduction{.kernel = {.support_radius = 0.02}};
   const auto points = geometry::fill(geometry::Cubic<2>{.spacing = spacing}, geometry::Cuboid<2>{.lower = {0.0, 0.0}, .upper = {1.0, 0.1}});
   const geometry::Box<2> box{.lower = {0.0, 0.0}, .upper = {1.0, 0.1}, .periodic = {false, true}};
   auto scene = simulation::scene<integrator::LammpsVerlet>(box, group<Left>("bar", Stationary{}, points, solid.density * spacing * spacing),
@@ -207,5 +207,5 @@ int run(const example::Options& options) {
 int main(int argc, char** argv) {
   return example::guarded("heat_conduction", run,
                           example::options(argc, argv, "heat_conduction",
-                                           "Heat conduction inside and between phases against exact solutions (HX-1, HX-2, HX-3).", 10));
+                                           "Heat conduction inside and between phases against exact solutions (HX-1, HX-2, HX-3).", {.least_resolution = 10}));
 }

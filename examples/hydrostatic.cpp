@@ -131,7 +131,7 @@ Outcome settle(Start start, int rows, double end, const io::OutputFolder& folder
 }
 
 int run(const example::Options& options) {
-  const int rows = options.size == example::Size::quick ? 20 : options.size == example::Size::normal ? 32 : 64;
+  const int rows = options.resolutions({20}, {32}, {64}).front();
   const double end = options.size == example::Size::quick ? 4.0 : 10.0;  // [s]
   const double spacing = depth / rows;
   const io::OutputFolder folder(options.output);
@@ -173,5 +173,5 @@ int run(const example::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::guarded("hydrostatic", run, example::options(argc, argv, "hydrostatic", "Liquid at rest in an open tank: pressure against rho g (H - y)."));
+  return example::guarded("hydrostatic", run, example::options(argc, argv, "hydrostatic", "Liquid at rest in an open tank: pressure against rho g (H - y).", {.least_resolution = 10}));
 }

@@ -3,6 +3,7 @@
 // omega = 2 sqrt(k/m) |sin(q a/2)|, and with what the leapfrog makes of it, sin(Omega dt/2) = omega dt/2, which it must meet to rounding.
 // Chain: L. Brillouin, Wave Propagation in Periodic Structures (McGraw-Hill, 1946), chapter 1. Leapfrog: E. Hairer, C. Lubich, G. Wanner,
 // Acta Numerica 12 (2003) 399-450, doi:10.1017/S0962492902000144.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -11,6 +12,7 @@
 #include <vector>
 #include <dmp/dmp.hpp>
 
+#include "support/choices.hpp"
 #include "support/options.hpp"
 #include "support/result.hpp"
 
@@ -26,7 +28,7 @@ constexpr double spacing = 0.01;                 // a [m]
 constexpr double mass = 0.01;                    // m [kg]
 constexpr double stiffness = 4.0;                // k [N/m]
 constexpr double amplitude = 0.03 * spacing;     // of each wave [m]; together they stretch no bond by more than a fifth
-constexpr double fraction = 0.1;                 // of the largest stable time step
+constexpr double own_fraction = 0.1;             // of the largest stable time step
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 const bond::Harmonic spring{.stiffness = stiffness};
 
@@ -84,7 +86,12 @@ State observe(const Scene& ring, double time_step) {
 
 int run(const example::Options& options) {
   const int beads = options.size == example::Size::quick ? 64 : options.size == example::Size::normal ? 256 : 1024;
-  const double steps = options.size == example::Size::quick ? 1e5 : 1e6;  // whole eights: the last one is observed
+  // The time is that of so many steps at a tenth of the largest stable one. Waves are looked at often enough to see them turn, the last time
+  // at the end.
+  const double fraction = options.safety > 0.0 ? options.safety : own_fraction;
+  const double steps_between_looks = std::max(1.0, std::floor(0.8 / fraction + 1e-9));
+  const double looks = (options.size == example::Size::quick ? 1e5 : 1e6) * own_fraction / (fraction * steps_between_looks);
+  const double steps = steps_between_looks * std::ceil(looks - 1e-9);
   const io::OutputFolder folder(options.output);
 
   // Ring at rest, closed through the periodic face
@@ -94,7 +101,7 @@ int run(const example::Options& options) {
     points.positions.emplace_back(Wave::rest_position(i));
     chain.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>((i + 1) % beads), spacing});
   }
-  auto ring = scene<integrator::Leapfrog>(geometry::Box<1>{.lower = {0.0}, .upper = {beads * spacing}, .periodic = {true}},
+  auto ring = scene<example::Integrator<integrator::Leapfrog>>(geometry::Box<1>{.lower = {0.0}, .upper = {beads * spacing}, .periodic = {true}},
                                           group<Beads>("beads", Mobile{}, points, mass), bonds<Beads, Beads>(spring, chain));
 
   // Waves, from as long as the ring to almost as short as two beads
@@ -111,7 +118,7 @@ int run(const example::Options& options) {
   const State start = observe(ring, time_step);
   State largest;  // deviations
   io::CsvTable energies(folder / "energy.csv", {{"time", "s"}, {"energy, relative change", "-"}, {"shadow energy, relative change", "-"}, {"momentum", "kg m/s"}});
-  ring.every(8.0 * time_step, [&](const auto& scene) {
+  ring.every(steps_between_looks * time_step, [&](const auto& scene) {
     const auto u = displacements(scene);
     for (Wave& wave : waves) wave.follow(u);
   });
@@ -158,5 +165,6 @@ int run(const example::Options& options) {
 
 int main(int argc, char** argv) {
   return example::guarded("oscillator_chain", run,
-                          example::options(argc, argv, "oscillator_chain", "Waves on a ring of masses and springs: frequencies against the exact dispersion relation, energy over a million steps."));
+                          example::options(argc, argv, "oscillator_chain", "Waves on a ring of masses and springs: frequencies against the exact dispersion relation, energy over a million steps.",
+                                           {.safety = true}));
 }

@@ -7,7 +7,7 @@
 #include <dmp/dmp.hpp>
 
 #include "support/channel.hpp"
-#include "support/kernel.hpp"
+#include "support/choices.hpp"
 #include "support/options.hpp"
 #include "support/result.hpp"
 
@@ -41,14 +41,17 @@ double exact_velocity(Drive drive, double y, double time) {
   return u;
 }
 
-example::ProfileError flow(Drive drive, int rows, const io::OutputFolder& folder, example::Result& result) {
-  const example::Channel channel{.gap = gap, .rows = rows};
+example::ProfileError flow(Drive drive, int rows, const example::Options& options, const io::OutputFolder& folder,
+                           example::Result& result) {
+  example::Channel channel{.gap = gap, .rows = rows};
+  if (options.support > 0.0) channel.support_in_spacings = options.support;
   const Vector<2> plate_velocity(drive == Drive::plate ? top_speed : 0.0, 0.0);
   const double force = drive == Drive::body_force ? 8.0 * viscosity_ * top_speed / (density * gap * gap) : 0.0;  // [m/s^2]
   const double mass = density * square(channel.spacing());
 
-  const sph::WeaklyCompressible<example::Kernel<2>, viscosity::Morris<>> law{.kernel = {.support_radius = channel.support_radius()}};
-  auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
+  const sph::WeaklyCompressible<example::Kernel<kernel::Lucy<2>>, viscosity::Morris<>> law{
+      .kernel = {.support_radius = channel.support_radius()}};
+  auto scene = simulation::scene<example::Integrator<integrator::ExtrapolatedVerlet>, example::Precision<precision::Double>>(
       channel.box(), group<Water>("water", Mobile{}, channel.fluid(), mass),
       group<LowerPlate>("lower_plate", Frozen<2>{}, channel.lower_plate(), mass),
       group<UpperPlate>("upper_plate", Frozen<2>{.wall_velocity = plate_velocity}, channel.upper_plate(), mass),
@@ -60,13 +63,13 @@ example::ProfileError flow(Drive drive, int rows, const io::OutputFolder& folder
   // The exact profile at a tenth of the diffusion time and at the end; the profile of the particles in a table.
   const std::string name = (drive == Drive::plate ? "couette_" : "poiseuille_") + std::to_string(rows);
   const std::string label = std::string(drive == Drive::plate ? "Couette" : "Poiseuille") + ", N = " + std::to_string(rows);
-  const double end = 7.0 * diffusion_time, dt = example::step_of_case<2>(0.03 * square(channel.support_radius()) * density / viscosity_);
-  const auto transient = scene.run({.until = diffusion_time, .time_step = dt});
+  const double end = 7.0 * diffusion_time, dt = 0.03 * square(channel.support_radius()) * density / viscosity_;
+  const auto transient = scene.run(example::until(diffusion_time, dt, options));
   const auto error = [&] {
     return example::profile_error(scene.group<Water>(), [&](double y) { return exact_velocity(drive, y, scene.time()); });
   };
   const example::ProfileError on_the_way = error();
-  const auto rest = scene.run({.until = end, .time_step = dt});
+  const auto rest = scene.run(example::until(end, dt, options));
   const example::ProfileError at_end = error();
 
   io::CsvTable table(folder / (name + ".csv"), {{"y", "m"}, {"u", "m/s"}, {"exact u", "m/s"}});
@@ -95,9 +98,9 @@ int run(const example::Options& options) {
                          .resolution = "10 to " + std::to_string(resolutions.back()) + " spacings across"};
   io::CsvTable convergence(folder / "convergence.csv", {{"rows", "-"}, {"Poiseuille L2", "-"}, {"Couette L2", "-"}});
   for (const int rows : resolutions) {
-    const auto poiseuille = flow(Drive::body_force, rows, folder, result);
+    const auto poiseuille = flow(Drive::body_force, rows, options, folder, result);
     if (options.resolution > 0) continue;
-    const auto couette = flow(Drive::plate, rows, folder, result);
+    const auto couette = flow(Drive::plate, rows, options, folder, result);
     convergence.row({static_cast<double>(rows), poiseuille.l2, couette.l2});
   }
   if (options.resolution == 0)
@@ -117,5 +120,6 @@ int main(int argc, char** argv) {
   return example::guarded(
       "poiseuille", run,
       example::options(argc, argv, "poiseuille",
-                       "Start-up of plane Poiseuille (VISC-1) and Couette (FS-2) flow against the series solutions.", 5));
+                       "Start-up of plane Poiseuille (VISC-1) and Couette (FS-2) flow against the series solutions.",
+                       {.least_resolution = 5, .largest_support = 4.0, .safety = true}));
 }

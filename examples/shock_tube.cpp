@@ -7,7 +7,7 @@
 #include <vector>
 #include <dmp/dmp.hpp>
 
-#include "support/kernel.hpp"
+#include "support/choices.hpp"
 #include "support/options.hpp"
 #include "support/result.hpp"
 
@@ -102,19 +102,19 @@ double last_crossing(const std::vector<std::pair<double, double>>& profile, doub
   return -half_length;
 }
 
-void tube(double high_pressure, int columns, const io::OutputFolder& folder, example::Result& result) {
+void tube(double high_pressure, int columns, const example::Options& options, const io::OutputFolder& folder, example::Result& result) {
   const double spacing = 2.0 * half_length / columns, height = 6.0 * spacing, mass = density * spacing * spacing;
-  const double support_radius = support_in_spacings * spacing;
+  const double support_radius = (options.support > 0.0 ? options.support : support_in_spacings) * spacing;
   const Riemann exact(high_pressure);
   const auto block = [&](double first, double last) {
     return geometry::fill(geometry::Cubic<2>{.spacing = spacing, .origin = {-half_length, 0.0}},
                           geometry::Cuboid<2>{.lower = {first, 0.0}, .upper = {last, height}});
   };
-  const sph::Compressible<example::Kernel<2>, viscosity::ShockCapturing> law{.kernel = {.support_radius = support_radius},
-                                                                             .viscosity = {.alpha = 1.0}};
+  const sph::Compressible<example::Kernel<kernel::Lucy<2>>, viscosity::ShockCapturing> law{
+      .kernel = {.support_radius = support_radius}, .viscosity = {.alpha = 1.0}};
   const double end = half_length + 4.0 * spacing;
   const geometry::Box<2> box{.lower = {-end, 0.0}, .upper = {end, height}, .periodic = {false, true}};
-  auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
+  auto scene = simulation::scene<example::Integrator<integrator::ExtrapolatedVerlet>>(
       box, group<Water>("water", Mobile{}, block(-half_length, half_length), mass),
       group<LeftEnd>("left_end", Frozen<2>{}, block(-end, -half_length), mass),
       group<RightEnd>("right_end", Frozen<2>{}, block(half_length, end), mass), interaction<Water, Water>(law),
@@ -138,7 +138,7 @@ void tube(double high_pressure, int columns, const io::OutputFolder& folder, exa
   const double energy_before = energy();
   const double sound = water.sound_speed(density, water.specific_energy(high_pressure, density));
   const auto report =
-      scene.run({.until = end_time, .time_step = example::step_of_case<2>(0.2 * support_radius / (sound + exact.velocity()))});
+      scene.run(example::until(end_time, 0.2 * support_radius / (sound + exact.velocity()), options));
 
   const double t = scene.time();
   std::vector<std::pair<double, double>> profile;
@@ -194,8 +194,8 @@ int run(const example::Options& options) {
   example::Result result{
       .example = "shock_tube", .test_case = "NASG-1", .resolution = "up to " + std::to_string(resolutions.back()) + " columns"};
   for (const int columns : resolutions) {
-    tube(1e8, columns, folder, result);
-    if (options.resolution == 0) tube(1e9, columns, folder, result);
+    tube(1e8, columns, options, folder, result);
+    if (options.resolution == 0) tube(1e9, columns, options, folder, result);
   }
   if (options.resolution == 0)
     io::plot(folder, "shock_tube",
@@ -214,5 +214,6 @@ int main(int argc, char** argv) {
   return example::guarded(
       "shock_tube", run,
       example::options(argc, argv, "shock_tube",
-                       "Shock tube of liquid water with the energy equation against the exact Riemann solution (NASG-1).", 50));
+                       "Shock tube of liquid water with the energy equation against the exact Riemann solution (NASG-1).",
+                       {.least_resolution = 50, .largest_support = 4.0, .safety = true}));
 }

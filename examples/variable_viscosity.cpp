@@ -12,7 +12,7 @@
 #include <dmp/dmp.hpp>
 
 #include "support/channel.hpp"
-#include "support/kernel.hpp"
+#include "support/choices.hpp"
 #include "support/options.hpp"
 #include "support/result.hpp"
 
@@ -98,14 +98,14 @@ enum class Temperature { prescribed, conducted };
 
 /// VISC-2 and VISC-3: the viscosity falls by `ratio` from the cold wall to the hot one.
 template <Temperature Kind>
-void heated_channel(double ratio, int rows, const io::OutputFolder& folder, example::Result& result) {
+void heated_channel(double ratio, int rows, const example::Options& options, const io::OutputFolder& folder, example::Result& result) {
   constexpr bool conducts = Kind == Temperature::conducted;
   const example::Channel channel{.gap = gap, .rows = rows};
   const double hot = hot_for(ratio), mass = density * square(channel.spacing());
   const VariableProfile exact(hot);
   const double hottest = oil.viscosity(hot), coldest = oil.viscosity(cold);
-  const sph::WeaklyCompressible<example::Kernel<2>, viscosity::Morris<>> flow{.kernel = {.support_radius = channel.support_radius()}};
-  const sph::HeatConduction<example::Kernel<2>> conduction{.kernel = {.support_radius = channel.support_radius()}};
+  const sph::WeaklyCompressible<example::Kernel<kernel::Lucy<2>>, viscosity::Morris<>> flow{.kernel = {.support_radius = channel.support_radius()}};
+  const sph::HeatConduction<example::Kernel<kernel::Lucy<2>>> conduction{.kernel = {.support_radius = channel.support_radius()}};
   const eos::Tait liquid{.rest_density = density, .sound_speed_0 = 10.0 * top_speed};
   const auto pairs = [&]<class A, class B>(std::type_identity<A>, std::type_identity<B>) {
     if constexpr (conducts) return interaction<A, B>(flow, conduction);
@@ -137,7 +137,7 @@ void heated_channel(double ratio, int rows, const io::OutputFolder& folder, exam
   const double mean = 0.5 * (coldest + hottest);
   const double end = 10.5 * density * gap * gap / (std::numbers::pi * std::numbers::pi * mean);
   const auto report =
-      scene.run({.until = end, .time_step = example::step_of_case<2>(0.03 * square(channel.support_radius()) * density / coldest)});
+      scene.run(example::until(end, 0.03 * square(channel.support_radius()) * density / coldest, options));
 
   double viscosity_error = 0.0;
   for (std::size_t i = 0; i < water.size(); ++i) {
@@ -195,8 +195,8 @@ void power_law(double n, int rows, double l2, double shape, const io::OutputFold
   const example::Channel channel{.gap = 1.0, .rows = rows};
   const double mass = square(channel.spacing()), h = channel.support_radius(), exponent = (n + 1.0) / n;
   const double force = std::pow(exponent * std::pow(2.0, exponent), n);
-  const sph::WeaklyCompressible<example::Kernel<2>, viscosity::Morris<>> law{.kernel = {.support_radius = h}};
-  const sph::ShearRate<example::Kernel<2>> shear_rate{.kernel = {.support_radius = h}};
+  const sph::WeaklyCompressible<kernel::Lucy<2>, viscosity::Morris<>> law{.kernel = {.support_radius = h}};
+  const sph::ShearRate<kernel::Lucy<2>> shear_rate{.kernel = {.support_radius = h}};
   const rheology::PowerLaw fluid{
       .consistency_index = 1.0, .power_law_index = n, .lowest_shear_rate = 0.1, .lowest_viscosity = 1e-3, .highest_viscosity = 1e3};
   auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
@@ -226,11 +226,11 @@ int run(const example::Options& options) {
   result.resolution = "up to " + std::to_string(resolutions.back()) + " spacings across";
   for (const int rows : resolutions) {
     if (options.resolution > 0) {
-      heated_channel<Temperature::prescribed>(3.0, rows, folder, result);
+      heated_channel<Temperature::prescribed>(3.0, rows, options, folder, result);
       return result.print(folder);
     }
-    for (const double ratio : {1.5, 2.0, 3.0, 5.0}) heated_channel<Temperature::prescribed>(ratio, rows, folder, result);
-    heated_channel<Temperature::conducted>(3.0, rows, folder, result);
+    for (const double ratio : {1.5, 2.0, 3.0, 5.0}) heated_channel<Temperature::prescribed>(ratio, rows, options, folder, result);
+    heated_channel<Temperature::conducted>(3.0, rows, options, folder, result);
   }
   along_centres(viscosity::Monaghan<2>{}, 10.0 * top_speed, "two-sided", 1.14, 0.03, 0.005, folder, result);
   if (options.size != example::Size::quick) {
@@ -250,5 +250,5 @@ int main(int argc, char** argv) {
   return example::guarded(
       "variable_viscosity", run,
       example::options(argc, argv, "variable_viscosity",
-                       "Channel flow of fluids whose viscosity varies with temperature or shear rate (VISC-2 to VISC-5).", 5));
+                       "Channel flow of fluids whose viscosity varies with temperature or shear rate (VISC-2 to VISC-5).", {.least_resolution = 5, .safety = true}));
 }

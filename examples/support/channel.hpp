@@ -10,10 +10,11 @@ namespace example {
 
 /// A plane channel, periodic along x, between two plates of three rows of particles each whose first row lies on the plane of the wall.
 struct Channel {
-  double gap;  ///< H [m], between the planes y = 0 and y = H
-  int rows;    ///< spacings across
+  double gap;                        ///< H [m], between the planes y = 0 and y = H
+  int rows;                          ///< spacings across
+  double support_in_spacings = 2.6;  ///< at most 4: the plates are no thicker
 
-  static constexpr double columns = 10.0, support_in_spacings = 2.6;
+  static constexpr double columns = 10.0;
   [[nodiscard]] double spacing() const { return gap / rows; }
   [[nodiscard]] double support_radius() const { return support_in_spacings * spacing(); }
   [[nodiscard]] dmp::geometry::Box<2> box() const {

@@ -6,7 +6,7 @@
 
 namespace example {
 
-Options options(int argc, char** argv, const std::string& name, const std::string& what, int least_resolution) {
+Options options(int argc, char** argv, const std::string& name, const std::string& what, const Offered& offered) {
   CLI::App parser(what, name);
   Options result;
   result.output = "output/" + name;
@@ -16,10 +16,16 @@ Options options(int argc, char** argv, const std::string& name, const std::strin
   parser.add_flag("--full", full, "published resolution; may take long")->excludes(quick_flag);
   parser.add_option("--threads", threads, "threads to use")->check(CLI::PositiveNumber)->capture_default_str();
   parser.add_option("--output", result.output, "folder for all output")->capture_default_str();
-  if (least_resolution > 0)
+  if (offered.least_resolution > 0)
     parser.add_option("--resolution", result.resolution, "this resolution alone, instead of those of the size")
-        ->check(CLI::Range(least_resolution, 1000000))
+        ->check(CLI::Range(offered.least_resolution, 1000000))
         ->excludes(quick_flag);
+  if (offered.largest_support > 0.0)
+    parser.add_option("--support", result.support, "support radius over spacing, instead of the example's own")
+        ->check(CLI::Range(1.5, offered.largest_support));
+  if (offered.safety)
+    parser.add_option("--safety", result.safety, "fraction of the bounds of the time step, instead of the example's own step")
+        ->check(CLI::Range(0.01, 1.0));
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {

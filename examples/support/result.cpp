@@ -47,6 +47,7 @@ int Result::print(const dmp::io::OutputFolder& folder) const {
             number(error.bound) + ", \"reference\": " + quoted(error.reference) + "}";
   }
   json += "}, \"holds\": " + std::string(holds() ? "true" : "false") + ", \"wall_seconds\": " + number(wall_seconds) +
+          ", \"processor_seconds\": " + number(processor_seconds) +
           ", \"particle_steps_per_second\": " + number(wall_seconds > 0.0 ? particle_steps / wall_seconds : 0.0) +
           ", \"bytes_per_particle\": " + number(bytes_per_particle) + ", \"step_bound_by\": " + quoted(step_bound_by) + "}";
   std::printf("result: %s\n", json.c_str());

@@ -12,7 +12,7 @@
 
 namespace example {
 
-/// What a run is worth: its errors against what is known, its cost, and the law that bound its time step.
+/// What a run is worth: its errors against what is known, its cost (0 where not measured), and the law that bound its time step.
 ///   Result result{.example = "poiseuille", .test_case = "VISC-1"};
 ///   result.error("L2 of the velocity profile", error, 0.55 / rows, "series solution");
 ///   result.add(scene.run({.until = 1.0}));
@@ -27,7 +27,7 @@ struct Result {
   std::string example{}, test_case{}, resolution{};
   std::size_t particles = 0;  // of the largest scene, and its bytes per particle
   std::uint64_t steps = 0;
-  double wall_seconds = 0.0, particle_steps = 0.0, bytes_per_particle = 0.0;
+  double wall_seconds = 0.0, processor_seconds = 0.0, particle_steps = 0.0, bytes_per_particle = 0.0;
   std::string step_bound_by{};
   std::vector<Error> errors{};
 
@@ -39,6 +39,7 @@ struct Result {
   void add(const Report& report) {
     steps += report.steps;
     wall_seconds += report.wall_seconds;
+    processor_seconds += report.processor_seconds;
     particle_steps += report.particle_steps;
     step_bound_by = report.step_bound_by;
   }
