@@ -433,5 +433,5 @@ int main(int argc, char** argv) {
                           example::options(argc, argv, "amorphous_solid",
                                            "Random networks of springs, tuned and not: stress, strain, E and nu against theory (B4 to B10, "
                                            "B12). Resolution: the edge of a cube in a0, of B4 to B7 alone.",
-                                           5));
+                                           {.least_resolution = 5}));
 }

@@ -203,7 +203,7 @@ void column(int across, double end, const io::OutputFolder& folder, example::Res
   const double spacing = a / across, unit = std::sqrt(a / (2.0 * gravity));
   const geometry::Cubic<2> lattice{.spacing = spacing};
   const Vector<2> layers = Vector<2>::Constant(wall_layers * spacing);
-  const Cuboid<2> tank{.lower = {0.0, 0.0}, .upper = {4.0 * a, 6.0 * a}};
+  const Cuboid<2> tank{.lower = {0.0, 0.0}, .upper = {4.0 * a, 10.0 * a}};  // so high that no splash leaves it
   const auto history = collapse<2>({.name = "column",
                                     .spacing = spacing,
                                     .water = fill(lattice, {.lower = {0.0, 0.0}, .upper = {a, 2.0 * a}}),

@@ -267,5 +267,5 @@ int main(int argc, char** argv) {
       example::options(
           argc, argv, "elastic_sphere",
           "An elastic ball of beads and springs between two plates, against Hertz (A4, A5, A6, A7). Resolution: R/l of one ordered ball.",
-          6));
+          {.least_resolution = 6}));
 }
