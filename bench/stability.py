@@ -20,6 +20,8 @@ def main():
     options = parser.parse_args()
     try:
         parts = re.split(r"^table: (\S+)\n", execute([options.program]).text, flags=re.MULTILINE)[1:]
+        if not parts:
+            raise Failure(f"{options.program} printed no tables")
         for name, text in zip(parts[::2], parts[1::2]):
             put_table(options.page, name, text.strip())
     except Failure as failure:

@@ -45,7 +45,7 @@ TEST_CASE("a Maxwell bond in the limits: a spring for short steps and stiff dash
     CAPTURE(h);
     CHECK(std::fabs(force(1.0, h / k) / (k * stretch * (1.0 - 0.5 * h + h * h / 6.0)) - 1.0) <= 4e-16);
   }
-  for (const double dt : {20.0, 1e3, 1e100}) CHECK(force(1.0, dt) == doctest::Approx(stretch / dt).epsilon(1e-14));  // c dX/dt
+  for (const double dt : {20.0, 1e3, 1e100}) CHECK(force(1.0, dt) == doctest::Approx(stretch / dt).epsilon(1e-14).scale(0.0));  // c dX/dt
   CHECK(force(1.0, std::numeric_limits<double>::max()) >= 0.0);
   for (const double dt : {0.0, 1e-9, 1.0}) {
     CHECK(force(0.0, dt) == 0.0);

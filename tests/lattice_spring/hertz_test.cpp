@@ -25,7 +25,7 @@ TEST_CASE("A4: force and contact radius of the sphere of sheet 01 at 1, 2, 5 and
   const std::array<std::array<double, 3>, 4> table{{{0.01, 9.10e-3, 3.2}, {0.02, 25.7e-3, 4.5}, {0.05, 101.8e-3, 7.2}, {0.10, 287.8e-3, 10.1}}};
   for (const auto& [fraction, force, radius] : table) {
     const double approach = fraction * 2.0 * sphere.radius;
-    CHECK(sphere.force(approach) == doctest::Approx(force).epsilon(2e-3));
+    CHECK(sphere.force(approach) == doctest::Approx(force).epsilon(2e-3).scale(0.0));
     CHECK(std::fabs(sphere.contact_radius(approach) / l - radius) < 0.06);
   }
   // In lattice units E = 2.5, R = 32: the column "Hertz" of A4.
@@ -125,7 +125,7 @@ TEST_CASE("A8c: the relaxation integral I(x) has the sheet's six values, and is 
     const double expected = test::integral(part, 0.0, 0.8) + test::integral(part, 0.8, 1.0);
     CHECK(relative_error(ramp_relaxation(x), expected) < 1e-12);
   }
-  CHECK(ramp_relaxation(1e6) == doctest::Approx(1.5e-6).epsilon(1e-6));
+  CHECK(ramp_relaxation(1e6) == doctest::Approx(1.5e-6).epsilon(1e-6).scale(0.0));
   CHECK(ramp_relaxation(1e300) > 0.0);
 }
 

@@ -58,7 +58,7 @@ TEST_CASE("sheet 01 section 6: inside the cubic lattice H = 6 k 1, so omega^2 <=
   // The sphere of sheet 01 at 1000 kg/m^3: 3.51e7 1/s, and 5.2e-8 s with tau = 5e-9 s.
   const double mass = 1000.0 * std::pow(12.5e-6, 3);
   CHECK(std::sqrt(highest_rate<3>(local_stiffness(block, 200.0), mass)) == doctest::Approx(3.51e7).epsilon(2e-3));
-  CHECK(stable_time_step(block, mass, 200.0, 1e-6) == doctest::Approx(5.2e-8).epsilon(0.01));
+  CHECK(stable_time_step(block, mass, 200.0, 1e-6) == doctest::Approx(5.2e-8).epsilon(0.01).scale(0.0));
 }
 
 TEST_CASE("section 6: the bound holds for lattices and networks, by the eigenvalues of the whole stiffness matrix, and is near in lattices") {

@@ -84,7 +84,7 @@ TEST_CASE("2D: the virial stress of triangular and square lattices under tension
       const double pull = constants.youngs_modulus * strain;
       CHECK(relative_error(stress[i](0, 0), pull) < 1e-6);
       CHECK(std::fabs(stress[i](1, 1)) + std::fabs(stress[i](0, 1)) < 1e-6 * pull);
-      CHECK(largest_shear_stress<2>(stress[i]) == doctest::Approx(0.5 * pull).epsilon(1e-6));
+      CHECK(largest_shear_stress<2>(stress[i]) == doctest::Approx(0.5 * pull).epsilon(1e-6).scale(0.0));
     }
   };
   check(TriangularLattice{.spacing = 0.3}, 6);

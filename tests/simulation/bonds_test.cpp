@@ -114,8 +114,8 @@ TEST_CASE("KV-1: creep of one bond, one bead held or both free, under-, critical
 TEST_CASE("KV-1: the error of creep falls with the first order of the step for half-step velocities, with the second for predicted ones") {
   const double half_step[3] = {2.45e-4, 1.23e-4, 6.1e-5}, predicted[3] = {4.8e-5, 1.2e-5, 3.1e-6};  // sheet 06, section 5.1
   for (int n = 0; n < 3; ++n) {
-    CHECK(creep_error_at_1<Leapfrog, Frozen<1>>(2e-3 / (1 << n)) == doctest::Approx(half_step[n]).epsilon(0.02));
-    CHECK(creep_error_at_1<ExtrapolatedVerlet, Frozen<1>>(2e-2 / (1 << n)) == doctest::Approx(predicted[n]).epsilon(0.03));
+    CHECK(creep_error_at_1<Leapfrog, Frozen<1>>(2e-3 / (1 << n)) == doctest::Approx(half_step[n]).epsilon(0.02).scale(0.0));
+    CHECK(creep_error_at_1<ExtrapolatedVerlet, Frozen<1>>(2e-2 / (1 << n)) == doctest::Approx(predicted[n]).epsilon(0.03).scale(0.0));
   }
   CHECK(std::log2(creep_error_at_1<Leapfrog, Mobile>(2e-3) / creep_error_at_1<Leapfrog, Mobile>(1e-3)) == doctest::Approx(1.0).epsilon(0.02));
   CHECK(std::log2(creep_error_at_1<ExtrapolatedVerlet, Mobile>(2e-2) / creep_error_at_1<ExtrapolatedVerlet, Mobile>(1e-2)) == doctest::Approx(2.0).epsilon(0.02));

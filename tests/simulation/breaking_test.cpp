@@ -288,3 +288,125 @@ TEST_CASE("pieces may fly apart as far as they like in a periodic box, bonded be
   CHECK_NOTHROW(flying(0.1));
   CHECK_THROWS_AS(flying(1e9), SimulationError);
 }
+
+TEST_CASE("a restart leaves out the pairs that are still bonded and no others, whatever the scene knew before") {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "dmp_breaking_exclusions.checkpoint";
+  const potential::LennardJones repulsion{.energy_scale = 1.0, .diameter = 0.5, .cutoff = 0.55};
+  const auto two_pairs = [&](double first, double second) {  // each flies together at this speed; its bond breaks on the way
+    auto made = scene<Leapfrog>(Box<2>::unbounded(), group<Bead>("beads", Mobile{}, Points<2>{{{0.0, 0.0}, {2.0, 0.0}, {0.0, 50.0}, {2.0, 50.0}}}, 1.0),
+                                bonds<Bead, Bead>(Breaking{Harmonic{.stiffness = 0.1}, LargestEnergy{.energy = 0.01}}, {{0, 1}, {2, 3}}),
+                                interaction<Bead, Bead>(repulsion).excluding_bonded(1));
+    auto& v = made.template group<Bead>().template get<field::Velocity>();
+    v[0][0] = first, v[1][0] = -first, v[2][0] = second, v[3][0] = -second;
+    return made;
+  };
+  auto whole = two_pairs(1.0, 0.0), other = two_pairs(0.0, 1.0);
+  whole.run({.until = 0.5, .time_step = 1e-3});
+  whole.checkpoint(path.string());
+  whole.run({.until = 1.5, .time_step = 1e-3});
+  other.run({.until = 0.5, .time_step = 1e-3});
+  other.restart(path.string());
+  other.run({.until = 1.5, .time_step = 1e-3});
+  const auto x = [](const auto& of, std::size_t row) { return of.template group<Bead>().positions()[row][0]; };
+  CHECK(x(whole, 1) - x(whole, 0) > 0.5);
+  for (const std::size_t row : {0u, 1u, 2u, 3u}) CHECK(x(other, row) == x(whole, row));
+  std::filesystem::remove(path);
+}
+
+TEST_CASE("a pair whose bond breaks attracts at once, however rarely lists are built") {
+  const potential::LennardJones attraction{.energy_scale = 1.0, .diameter = 0.5, .cutoff = 1.25};
+  std::vector<double> distances;
+  for (const double skin : {0.0, 0.25, 0.5}) {
+    auto pair = scene<Leapfrog>(Box<2>::unbounded(), group<Bead>("beads", Mobile{}, Points<2>{{{0.0, 0.0}, {0.56, 0.0}}}, 1.0),
+                                bonds<Bead, Bead>(Breaking{Harmonic{.stiffness = 1e-6}, LargestStrain{.strain = 0.01}}, {{0, 1}}),
+                                interaction<Bead, Bead>(attraction).excluding_bonded(1));
+    pair.set_skin(skin);
+    pair.group<Bead>().get<field::Velocity>()[0][0] = -0.1;
+    pair.group<Bead>().get<field::Velocity>()[1][0] = 0.1;
+    pair.run({.until = 1.0, .time_step = 1e-3});
+    distances.push_back(pair.group<Bead>().positions()[1][0] - pair.group<Bead>().positions()[0][0]);
+  }
+  CHECK(distances[0] < 0.7);  // 0.76 without attraction
+  CHECK(distances[1] == doctest::Approx(distances[0]).epsilon(1e-12));
+  CHECK(distances[2] == doctest::Approx(distances[0]).epsilon(1e-12));
+}
+
+TEST_CASE("a run goes on with its last step when the last bond has broken; bonds between posts are never asked") {
+  auto bead = tethered(Breaking{Harmonic{.stiffness = 100.0}, LargestStrain{.strain = 0.05}}, 2.0);
+  bead.run({.until = 5.0});
+  CHECK(broken_bonds<Bead, Post>(bead).size() == 1);
+  CHECK(bead.group<Bead>().positions()[0][0] > 5.0);
+  auto posts = scene<Leapfrog>(Box<1>::unbounded(), group<Post>("posts", Frozen<1>{}, Points<1>{{Vector<1>(0.0), Vector<1>(9.0)}}, 1.0),
+                               group<Bead>("bead", Mobile{}, Points<1>{{Vector<1>(1.0)}}, 1.0),
+                               bonds<Post, Post>(Breaking{Harmonic{.stiffness = 1.0}, LargestStrain{.strain = 0.1}}, {{0, 1}}));
+  posts.run({.until = 1.0, .time_step = 0.1});
+  CHECK(broken_bonds<Post, Post>(posts).empty());
+}
+
+// ---- Bonds that turn, and the step --------------------------------------------------------------------------------------------------
+
+namespace {
+/// Two bonds under pressure hold a bead at right angles; as it flies off they come to pull along one line, and hold it twice as hard.
+auto turning(const auto& held, double drag) {
+  return scene<Leapfrog>(Box<2>::unbounded(), group<Post>("posts", Frozen<2>{}, Points<2>{{{-5.0, 0.0}, {0.0, -5.0}}}, 1.0),
+                         group<Bead>("bead", Mobile{}, Points<2>{{{0.0, 0.0}}}, 1.0), held, forced_by<Bead>(forcing::Drag{.coefficient = drag}));
+}
+std::vector<Bond> pressed(double rest_length) { return {{0, 0, rest_length}, {0, 1, rest_length}}; }
+}  // namespace
+
+TEST_CASE("sub-steps are as many as the bonds need now, also in a step that is given; a given step that no longer holds is caught") {
+  auto fast = turning(substepped_bonds<Bead, Post>(Harmonic{.stiffness = 100.0}, pressed(5.5)), 0.01);
+  fast.run({.until = 60.0, .time_step = 0.17});  // one sub-step at first, two later
+  CHECK(fast.engine().substeps() == 2);
+  const double stored = 2.0 * 0.5 * 100.0 * square(0.5);
+  CHECK(0.5 * fast.group<Bead>().get<field::Velocity>()[0].squaredNorm() <= stored);
+  for (const int steps : {90, 110}) {
+    auto slow = turning(bonds<Bead, Post>(Harmonic{.stiffness = 100.0}, pressed(50.0)), 0.5);
+    CHECK_THROWS_AS(slow.run({.until = 0.18 * steps, .time_step = 0.18}), SimulationError);
+  }
+}
+
+TEST_CASE("a restart in mid-run takes the sub-steps that the run had") {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "dmp_substeps.checkpoint";
+  for (const double time_step : {0.0, 0.5}) {
+    const auto made = [] {
+      auto loose = scene<Leapfrog>(Box<1>::unbounded(), group<Post>("post", Frozen<1>{}, Points<1>{{Vector<1>(0.0), Vector<1>(2.0)}}, 1.0),
+                                   group<Bead>("bead", Mobile{}, Points<1>{{Vector<1>(1.0)}}, 1.0),
+                                   substepped_bonds<Bead, Post>(Breaking{Harmonic{.stiffness = 100.0}, LargestStrain{.strain = 0.05}}, {{0, 0}}),
+                                   substepped_bonds<Bead, Post>(Harmonic{.stiffness = 20.0}, {{0, 1}}),
+                                   bonds<Bead, Post>(Harmonic{.stiffness = 1.0}, {{0, 1}}));
+      loose.template group<Bead>().template get<field::Velocity>()[0][0] = 2.0;
+      return loose;
+    };
+    auto whole = made();
+    bool saved = false;
+    whole.every(1.5, [&](auto& now) {
+      if (saved || now.step() == 0) return;
+      saved = true;
+      now.checkpoint(path.string());
+    });
+    whole.run({.until = 20.0, .time_step = time_step});
+    REQUIRE(saved);
+    auto restarted = made();
+    restarted.restart(path.string());
+    restarted.run({.until = 20.0, .time_step = time_step});
+    CHECK(broken_bonds<Bead, Post>(whole).size() == 1);
+    CHECK(restarted.group<Bead>().positions()[0][0] == whole.group<Bead>().positions()[0][0]);
+  }
+  std::filesystem::remove(path);
+}
+
+namespace {
+struct Cable {  // a force that does not depend on the length
+  double force;
+  [[nodiscard]] auto tension(const auto& bond) const noexcept { return force + 0.0 * bond.length; }
+  [[nodiscard]] double largest_stiffness() const noexcept { return 0.0; }
+};
+}  // namespace
+
+TEST_CASE("a tensioned cable without stiffness holds across, T/r: the step has a bound") {
+  const auto cable = scene<Leapfrog>(Box<2>::unbounded(), group<Post>("posts", Frozen<2>{}, Points<2>{{{-1.0, 0.0}, {1.0, 0.0}}}, 1.0),
+                                     group<Bead>("bead", Mobile{}, Points<2>{{{0.0, 0.0}}}, 1.0), bonds<Bead, Post>(Cable{50.0}, {{0, 0}, {0, 1}}));
+  auto made = cable;
+  CHECK(made.step_limit().stable_time_step == doctest::Approx(2.0 / std::sqrt(2.0 * 50.0)).epsilon(1e-12));
+}

@@ -71,7 +71,7 @@ TEST_CASE("pressure ratio 1e5: a shock tube of ideal gas whose jump is one spaci
   MESSAGE("velocity behind the shock ", behind / count / velocity, ", shock ", (farthest - 0.5) / (shock_speed * end), ", energy ", energy_of(g) / before - 1.0);
   CHECK(count > 10);
   CHECK(behind / count == doctest::Approx(velocity).epsilon(0.03));
-  CHECK(farthest - 0.5 == doctest::Approx(shock_speed * end).epsilon(0.03));
+  CHECK(farthest - 0.5 == doctest::Approx(shock_speed * end).epsilon(0.03).scale(0.0));
   CHECK(energy_of(g) == doctest::Approx(before).epsilon(1e-6));
   auto sharp = tube_of(1e-3 * spacing);  // work is shared between neighbours, and the cold one has nothing to give
   CHECK_THROWS_WITH_AS(sharp.run({.until = end}), doctest::Contains("eos::IdealGas: specific_energy must be > 0 J/kg"), SimulationError);
@@ -346,9 +346,9 @@ TEST_CASE("mass ratio 1e6: two bonded beads swing with sqrt(k/m), m their reduce
   const double period = 2.0 * std::numbers::pi * std::sqrt(reduced), step = period / 4000.0;
   pair.run({.until = 10.25 * period, .time_step = step});
   const double stretch = pair.group<Others>().positions()[0][0] - pair.group<Beads>().positions()[0][0] - 1.0;
-  CHECK(stretch == doctest::Approx(-1e-3 * std::sqrt(reduced)).epsilon(1e-6));  // sin at a quarter of a period
+  CHECK(stretch == doctest::Approx(-1e-3 * std::sqrt(reduced)).epsilon(1e-6).scale(0.0));  // sin at a quarter of a period
   const double momentum = pair.group<Beads>().get<field::Velocity>()[0][0] + 1e6 * pair.group<Others>().get<field::Velocity>()[0][0];
-  CHECK(momentum == doctest::Approx(1e-3).epsilon(1e-9));
+  CHECK(momentum == doctest::Approx(1e-3).epsilon(1e-9).scale(0.0));
 }
 
 TEST_CASE("sub-stepped bonds resonate: of the steps that slow springs allow, a share of (omega_slow dt)^2/(pi omega_fast dt) blows up") {

@@ -144,10 +144,10 @@ TEST_CASE("restart: values that cannot be are refused where all CRCs are right t
   CHECK(with("clock.times", 0, not_a_number) == restart.start + "clock.times must be finite, got nan");
   CHECK(with("clock.times", 1, -1e-3) == restart.start + "the time step must be >= 0, got -0.001");
   CHECK(restart.refusal(rewritten<std::uint64_t>(restart, "clock.steps", [](auto& values) {
-          values = {10, 11, 1};
+          values = {10, 11, 1, 0};
         })) == restart.start + "the step at which the time step was chosen must be <= 10, got 11");
   CHECK(restart.refusal(rewritten<std::uint64_t>(restart, "clock.steps", [](auto& values) { values.pop_back(); })) ==
-        restart.start + "section clock.steps must hold 3 numbers, got 2");
+        restart.start + "section clock.steps must hold 4 numbers, got 3");
   CHECK(restart.refusal(rewritten<std::uint32_t>(restart, "beads.id", [](auto& values) { values.push_back(4); })) ==
         restart.start + "section beads.id must hold 4 numbers, got 5");
 }

@@ -23,6 +23,7 @@ void check(const Case& c) {
   const Outcome past = c.run(c.stopped * c.stated, 2000);
   CHECK(past.error.starts_with("dmp: "));
   CHECK(past.where.step > 0);
+  if (past.error.find("the given time step is longer than") != std::string::npos) return;  // stretched bonds have lowered the bound: no one particle's
   CHECK(past.where.group != "");
   CHECK(past.where.particle >= 0);
   CHECK(past.where.field != "");
@@ -43,5 +44,6 @@ TEST_CASE("several laws that bound the step alike: together too they are stable 
 TEST_CASE("springs in a liquid, whose sound extrapolates the density: stable at 0.95 of the bound, without viscosity too") {
   check(liquid_with_springs<ExtrapolatedVerlet>());
   check(liquid_with_springs<Leapfrog>());
+  check(liquid_with_springs<SymplecticEuler>());
 }
 TEST_CASE("the bound of sound with the other integrators") { check({sound<Leapfrog>(), sound<SymplecticEuler>()}); }

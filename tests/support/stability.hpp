@@ -305,7 +305,7 @@ template <class Integrator>
     return [damping](const auto& list) { return implicit_bonds<Beads, Beads>(bond::KelvinVoigt{.stiffness = 1.0, .damping = damping}, list); };
   };
   return {springs<Integrator>(),
-          block<Integrator>("bond::Harmonic", "free block of 6^3 nodes, 18 springs each"),
+          block<Integrator>("bond::Harmonic", "free block of 6^3 cells, 18 springs each inside"),
           dashpots<Integrator>(),
           ring<Integrator>("bond::KelvinVoigt, both", "ring of 16 beads", dashpot(1.0, 1.0)),
           ring<Integrator>("bond::Maxwell", "ring, slow dashpots", bonds_of(bond::Maxwell{.stiffness = 1.0, .damping = 1e3}), 0.0, 1e-3),

@@ -45,7 +45,7 @@ using State = std::conditional_t<HasMemory<B>, Remembering<Seen<B>, double>, See
 /// Contract of a bond law.
 ///   tension(bond)        [N], > 0 pulls the ends together; the force on i is -tension n_ij
 ///   energy(bond)         [J], stored (elastic) energy, of which the elastic tension is the derivative; only conformance asks for it
-///   largest_stiffness()  [N/m], largest dT/dr, for the time step
+///   largest_stiffness()  [N/m], largest dT/dr, for the time step; what a bond under tension holds across, T/r, the scene adds
 ///   largest_damping()    [N s/m], largest dT/d(dr/dt), for the time step; only of a law that uses `length_rate`
 ///   memory_after(dt)     only of a law with one number of memory per bond: a function of the bond that gives the memory at the end of a
 ///                        step of dt [s] from that at its beginning and `length_change`. The function is asked once per bond and step,
@@ -73,6 +73,8 @@ consteval bool explain_bond_potential() {
         { b.largest_stiffness() } -> std::convertible_to<double>;
       },
       "dmp: not a BondPotential: no `double largest_stiffness() const` [N/m], which bounds the time step");
+  static_assert(CanBreak<B> || !requires(B b, const Remembering<MovingStretch<double>, double> s) { b.breaks(s); },
+                "dmp: not a BondPotential: `breaks(const Bond& bond)` must be const");
   if constexpr (HasMemory<B>)
     static_assert(
         requires(const B b, const State s, double dt) {

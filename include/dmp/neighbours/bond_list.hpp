@@ -32,8 +32,7 @@ template <int Dim>
   for (int d = 0; d < Dim; ++d) {
     if (!box.periodic[static_cast<std::size_t>(d)]) continue;
     const double length = box.upper[d] - box.lower[d];
-    if (a_minus_b[d] > 0.5 * length) a_minus_b[d] -= length;
-    if (a_minus_b[d] < -0.5 * length) a_minus_b[d] += length;
+    if (std::fabs(a_minus_b[d]) > 0.5 * length) a_minus_b[d] -= length * std::round(a_minus_b[d] / length);
   }
   return a_minus_b;
 }
@@ -49,7 +48,8 @@ class BondList {
   struct Entries {
     std::size_t size;
     const std::uint32_t* partner;   ///< row, times the stride of records
-    const std::uint32_t* reaction;  ///< row to which the reaction is added, times the stride of sums: the partner's, or one that nobody wants
+    const std::uint32_t*
+        reaction;  ///< row to which the reaction is added, times the stride of sums: the partner's, or one that nobody wants
     const double* rest_length;
     const double* weight;
     std::size_t weight_step;  ///< 0: all weights are 1, and one pack of them is there
@@ -182,7 +182,7 @@ class BondList {
             weight_.data() + weight_step_ * first,
             weight_step_};
   }
-  /// Sum of the weights of the bonds of particle i, wherever they are listed.
+  /// Sum of the weights of the bonds of particle i, wherever they are listed; also of those that have broken.
   [[nodiscard]] double sum_of_weights(std::size_t i) const noexcept { return sum_of_weights_[i]; }
   [[nodiscard]] bool empty() const noexcept { return partner_.empty(); }
   /// Entries of a block, what a sweep over it costs.

@@ -19,7 +19,9 @@ struct Clamp {
   [[nodiscard]] Vector<Dim> position(const Vector<Dim>& start, double time) const {
     return start + motion.displacement(time) * to_vector<Dim>(direction.value);
   }
-  [[nodiscard]] Vector<Dim> velocity(const Vector<Dim>&, double time) const { return motion.velocity(time) * to_vector<Dim>(direction.value); }
+  [[nodiscard]] Vector<Dim> velocity(const Vector<Dim>&, double time) const {
+    return motion.velocity(time) * to_vector<Dim>(direction.value);
+  }
 };
 
 template <int Dim>

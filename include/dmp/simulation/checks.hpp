@@ -49,7 +49,8 @@ template <int Dim, class... Rest>
 template <class Particle, class... Field>
 [[nodiscard]] std::string given(const Particle& particle, Fields<Field...>) {
   std::string text;
-  ((text += (text.empty() ? "" : ", ") + std::string(Field::name) + " " + to_text(Field::of(particle)) + " " + std::string(Field::unit)), ...);
+  ((text += (text.empty() ? "" : ", ") + std::string(Field::name) + " " + to_text(Field::of(particle)) + " " + std::string(Field::unit)),
+   ...);
   return text;
 }
 
@@ -76,7 +77,8 @@ void check_state(Engine<Dim, Rest...>& engine, const Clock& clock) {
 /// Every particle must be one that the material laws of its group can work with; `dt` [s] is the step under way. Throws SimulationError.
 template <int Dim, class... Rest>
 void check_materials(const Engine<Dim, Rest...>& engine, const Clock& clock, double dt) {
-  engine.find_refused(dt, [&clock]<class... Field>(const auto& g, std::size_t i, const std::string& demand, const auto& particle, Fields<Field...> read) {
+  engine.find_refused(dt, [&clock]<class... Field>(const auto& g, std::size_t i, const std::string& demand, const auto& particle,
+                                                   Fields<Field...> read) {
     double value = 0.0;
     std::string_view name;
     ((value = Field::of(particle), name = Field::name), ...);
@@ -87,7 +89,8 @@ void check_materials(const Engine<Dim, Rest...>& engine, const Clock& clock, dou
 template <int Dim, class... Rest>
 void check_materials_at_start(const Engine<Dim, Rest...>& engine) {
   engine.find_refused(0.0, [](const auto& g, std::size_t i, const std::string& demand, const auto& particle, auto read) {
-    throw ParameterError("scene: group " + g.name + ", particle " + std::to_string(g.id[i]) + ": " + demand + ", got " + given(particle, read));
+    throw ParameterError("scene: group " + g.name + ", particle " + std::to_string(g.id[i]) + ": " + demand + ", got " +
+                         given(particle, read));
   });
 }
 

@@ -130,8 +130,8 @@ inline constexpr bool all_set_whole<std::tuple<Law...>, Needed> = (sets_whole<La
 template <class Item>
 inline constexpr bool is_summed_over = false;
 template <class A, class B, class... Law>
-inline constexpr bool is_summed_over<Interaction<A, B, Law...>> =
-    contains<field::Density, typename Interaction<A, B, Law...>::reads> || contains<field::DensityRate, typename Interaction<A, B, Law...>::writes>;
+inline constexpr bool is_summed_over<Interaction<A, B, Law...>> = contains<field::Density, typename Interaction<A, B, Law...>::reads> ||
+                                                                  contains<field::DensityRate, typename Interaction<A, B, Law...>::writes>;
 
 template <class G, class H, class... Item>
 inline constexpr bool is_partner = ((joins_both<G, H, Item> && is_summed_over<Item>) || ...);
@@ -249,8 +249,9 @@ struct Compose {
                 "of the temperature, say): name the one that sets it first");
   using material_reads = unite<typename OfMaterial<Tag, Item>::reads...>;
   using needed = unite<reads, material_reads>;
-  static_assert(all_set_whole<materials, needed>,
-                "dmp: one of the laws to be chosen from in the materials of a group sets a property that another does not set, and a law reads it");
+  static_assert(
+      all_set_whole<materials, needed>,
+      "dmp: one of the laws to be chosen from in the materials of a group sets a property that another does not set, and a law reads it");
   using derived = intersect<unite<typename OfMaterial<Tag, Item>::derived...>, needed>;
   using summed = unite<typename OfSummed<Tag, Item, Item...>::sets...>;
   static_assert(intersect<subtract<reads, unite<constants, derived>>, subtract<SetByLaws, Fields<field::ShearRate>>>::count == 0,
@@ -259,8 +260,9 @@ struct Compose {
   static_assert(!contains<field::ShearRate, subtract<needed, summed>>,
                 "dmp: a law reads the shear rate of a group, but nothing sets it; add summed<Group>(sph::ShearRate<...>{...})");
   static_assert(summed::count == 0 || Mobility::evolves, "dmp: summed<Group>: nothing changes in a frozen group; make it stationary");
-  static_assert(summed::count == 0 || ((joins<Tag, Item> && is_summed_over<Item>) || ...),
-                "dmp: summed<Group>: no interaction of a law that knows the density joins the group to any, so it has no neighbours to sum over");
+  static_assert(
+      summed::count == 0 || ((joins<Tag, Item> && is_summed_over<Item>) || ...),
+      "dmp: summed<Group>: no interaction of a law that knows the density joins the group to any, so it has no neighbours to sum over");
   static_assert(intersect<summed, unite<constants, derived>>::count == 0,
                 "dmp: summed<Group> sets a property that a law in the materials of the group sets too; leave one of them out");
 

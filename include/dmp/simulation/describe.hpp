@@ -77,7 +77,8 @@ template <class Scene>
     if constexpr (is_bonds<I>) {
       text << "  bonds " << name(std::type_identity<typename I::A>{}) << " - " << name(std::type_identity<typename I::B>{}) << ": "
            << active.item.bonds.size() << " bonds" << (I::uses_velocity ? ", with velocities" : "")
-           << (I::substepped ? ", sub-stepped" : "") << (bond::HasMemory<decltype(I::law)> ? ", with memory" : "") << (bond::CanBreak<decltype(I::law)> ? ", breaking" : "")
+           << (I::substepped ? ", sub-stepped" : "") << (bond::HasMemory<decltype(I::law)> ? ", with memory" : "")
+           << (bond::CanBreak<decltype(I::law)> ? ", breaking" : "")
            << (std::is_same_v<decltype(I::law), ImplicitKelvinVoigt> ? ", dashpots implicit" : "") << '\n';
       any = true;
     }

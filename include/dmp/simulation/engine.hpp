@@ -30,6 +30,7 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
 
   /// How often sub-stepped bonds are evaluated per step.
   void set_substeps(int substeps) noexcept { substeps_ = substeps; }
+  [[nodiscard]] int substeps() const noexcept { return substeps_; }
 
   /// The next step is the first one, whose accelerations are still without the dashpots that are solved for.
   void start_afresh() noexcept { fresh_ = true; }

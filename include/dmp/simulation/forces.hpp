@@ -126,7 +126,8 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
       if constexpr (std::is_same_v<Source, typename G::Tag>) plus(at, factor, vector);
     };
     const std::size_t own = i * static_cast<std::size_t>(G::Sums::stride);
-    if (list.crosses(i)) plus(own, 1.0, sweep::sum_bonds<Dim, true, positions_alone>(records, list.of(i), bond_periods_, react, law, memory));
+    if (list.crosses(i))
+      plus(own, 1.0, sweep::sum_bonds<Dim, true, positions_alone>(records, list.of(i), bond_periods_, react, law, memory));
     else plus(own, 1.0, sweep::sum_bonds<Dim, false, positions_alone>(records, list.of(i), bond_periods_, react, law, memory));
   }
 
@@ -156,7 +157,8 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
         std::apply(
             [&](const auto&... law) __attribute__((always_inline)) {
               if constexpr (std::is_same_v<Tag, typename I::A>)
-                pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add, law...);
+                pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add,
+                                                                         law...);
               else if constexpr (std::is_same_v<Tag, typename I::B>)
                 pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
             },
@@ -207,7 +209,8 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
           using I = std::remove_cvref_t<decltype(active.item)>;
           if constexpr (detail::is_summed_over<I>) {
             if constexpr (std::is_same_v<typename G::Tag, typename I::A>)
-              pairs<typename I::B, std::is_same_v<typename I::A, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add, law);
+              pairs<typename I::B, std::is_same_v<typename I::A, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums,
+                                                                                 add, law);
             else if constexpr (std::is_same_v<typename G::Tag, typename I::B>)
               pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law);
           }

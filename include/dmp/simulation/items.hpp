@@ -117,6 +117,9 @@ template <class A, class B>
   return Bonds<A, B, ImplicitKelvinVoigt, false>{{{law.stiffness}, {.stiffness = 0.0, .damping = law.damping}, tolerance}, std::move(list)};
 }
 
+template <class A, class B, bond::CanBreak Law>
+auto implicit_bonds(const Law&, std::vector<neighbours::Bond>, double = 0.0) = delete;  // what is solved for does not break
+
 template <class Tags, class... Law>
 struct Material;
 /// Properties of the particles of some groups: equation of state, viscosity, ...

@@ -74,8 +74,8 @@ template <class Integrator, class Engine, class G>
 
 enum class BondKind { all, slow, fast };  ///< fast: the sub-stepped ones
 
-/// Calls function(item, stiffness, damping, list, partners) for every item whose bonds end in group g. Along each of its bonds in `list`, for
-/// each unit of weight, a particle has omega^2 <= `stiffness` [1/s^2] and lambda <= `damping` [1/s].
+/// Calls function(item, per_mass, list, partners) for every item whose bonds end in group g. Along each of its bonds in `list`, for each
+/// unit of weight, a particle has omega^2 <= per_mass k and lambda <= per_mass c, with per_mass = f/m.
 template <class Engine, class G, class Function>
 void for_each_bonds_of(const Engine& engine, const G& g, BondKind kind, Function&& function) {
   engine.for_each_item([&](const auto& active) {
@@ -84,14 +84,18 @@ void for_each_bonds_of(const Engine& engine, const G& g, BondKind kind, Function
       if (kind == (I::substepped ? BondKind::slow : BondKind::fast)) return;
       const auto call = [&]<class Partner>(const Partner& partners, const neighbours::BondList& list) {
         const double per_mass = (particles::is_mobile<typename Partner::Mobility> ? 2.0 : 1.0) / g.mass;
-        double damping = 0.0;
-        if constexpr (bond::UsesVelocity<decltype(I::law)>) damping = active.item.law.largest_damping() * per_mass;
-        function(active.item, active.item.law.largest_stiffness() * per_mass, damping, list, partners);
+        function(active.item, per_mass, list, partners);
       };
       if constexpr (std::is_same_v<typename G::Tag, typename I::A>) call(engine.template group<typename I::B>(), active.of_a);
       else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) call(engine.template group<typename I::A>(), active.of_b);
     }
   });
+}
+
+template <class Law>
+[[nodiscard]] double largest_damping(const Law& law) {
+  if constexpr (bond::UsesVelocity<Law>) return law.largest_damping();
+  else return 0.0;
 }
 
 /// The two groups that bonds join; and which item it is, in the order of declaration, where several join the same two.
@@ -115,8 +119,8 @@ template <class Engine, class G>
 [[nodiscard]] std::string binding_bonds(const Engine& engine, const G& g, BondKind kind, std::size_t i, bool by_dashpot) {
   std::string name;
   double most = 0.0;
-  for_each_bonds_of(engine, g, kind, [&](const auto& item, double stiffness, double damping, const neighbours::BondList& list, const auto&) {
-    const double share = (by_dashpot ? damping : stiffness) * list.sum_of_weights(i);
+  for_each_bonds_of(engine, g, kind, [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto&) {
+    const double share = per_mass * (by_dashpot ? largest_damping(item.law) : item.law.largest_stiffness()) * list.sum_of_weights(i);
     if (share <= most) return;
     most = share;
     name = name_of_bonds(engine, item);
@@ -132,15 +136,19 @@ struct Hold {
 template <int Dim>
 [[nodiscard]] double largest_eigenvalue(const Eigen::Matrix<double, Dim, Dim>& symmetric) {
   if constexpr (Dim == 1) return symmetric(0, 0);
-  else return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>().computeDirect(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[Dim - 1];
+  else
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>()
+        .computeDirect(symmetric, Eigen::EigenvaluesOnly)
+        .eigenvalues()[Dim - 1];
 }
 
 /// Adds what the bonds of one item do to the particles of a group as they stand now: f k/m n n^T, f c/m n n^T, and across a bond under
 /// tension f T/(m r) (1 - n n^T). A bond of length zero may act in any direction.
 template <class Engine, class Item, class G, class Partners>
-void add_hold(const Engine& engine, const Item& item, double stiffness, double damping, const neighbours::BondList& list, const G& g,
+void add_hold(const Engine& engine, const Item& item, double per_mass, const neighbours::BondList& list, const G& g,
               const Partners& partners, std::vector<Hold<G::Dim>>& hold) {
   constexpr int Dim = G::Dim;
+  const double stiffness = per_mass * item.law.largest_stiffness(), damping = per_mass * largest_damping(item.law);
   constexpr bool same = std::is_same_v<G, Partners>;
   for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
     for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
@@ -151,16 +159,17 @@ void add_hold(const Engine& engine, const Item& item, double stiffness, double d
         const Vector<Dim> apart = neighbours::minimum_image<Dim>(g.positions()[i] - partners.positions()[j], engine.box());
         const double squared = apart.squaredNorm(), weight = bonds.weight[k * bonds.weight_step];
         using Matrix = Eigen::Matrix<double, Dim, Dim>;
-        const Matrix all_ways = weight * Matrix::Identity(), along = squared > 0.0 ? Matrix(weight / squared * apart * apart.transpose()) : all_ways;
-        double across = 0.0;  // of the stiffness
-        if (squared > 0.0 && stiffness > 0.0) {
+        const Matrix all_ways = weight * Matrix::Identity(),
+                     along = squared > 0.0 ? Matrix(weight / squared * apart * apart.transpose()) : all_ways;
+        double across = 0.0;
+        if (squared > 0.0) {
           bond::Remembering<bond::MovingStretch<double>, double> seen{};
           seen.length = std::sqrt(squared);
           seen.rest_length = bonds.rest_length[k];
           if constexpr (bond::HasMemory<decltype(Item::law)>) seen.memory = list.memory_at(i, k);
-          across = std::max(0.0, item.law.tension(seen) / (item.law.largest_stiffness() * seen.length));
+          across = per_mass * std::max(0.0, item.law.tension(seen) / seen.length);
         }
-        const Hold<Dim> one{stiffness * ((1.0 - across) * along + across * all_ways), damping * along};
+        const Hold<Dim> one{stiffness * along + across * (all_ways - along), damping * along};
         const auto add = [&one](Hold<Dim>& to) {
           to.springs += one.springs;
           to.dashpots += one.dashpots;
@@ -179,11 +188,11 @@ struct PairRates {
   double sound = 0.0;        ///< 1/the bound of sound [1/s]
 };
 
-/// What bonds and forcings do to the particles of a group: omega^2 <= lambda_max(sum of f k/m n n^T) and lambda <= lambda_max(sum of
-/// f c/m n n^T) over the bonds of one particle, n their directions, plus stiffness/m and damping rates of forcings; f = 2, or 1 where the
-/// partner cannot move. From (u_i - u_j)^2 <= 2 (u_i^2 + u_j^2) along each bond; the cubic lattice reaches it. What pair laws do adds to
-/// both: `pairs`. All together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping limit < 1; and where there is sound too,
-/// see integrator/concept.hpp.
+/// What bonds and forcings do to the particles of a group: omega^2 <= lambda_max(sum of f k/m n n^T, and of f T/(m r) (1 - n n^T) where T >
+/// 0) and lambda <= lambda_max(sum of f c/m n n^T) over the bonds of one particle, n their directions, plus stiffness/m and damping rates
+/// of forcings; f = 2, or 1 where the partner cannot move. From (u_i - u_j)^2 <= 2 (u_i^2 + u_j^2) along each bond; the cubic lattice
+/// reaches it. What pair laws do adds to both: `pairs`. All together are stable for (omega dt/oscillation limit)^2 + lambda dt/damping
+/// limit < 1; and where there is sound too, see integrator/concept.hpp.
 template <class Integrator, class Engine, class G>
 void limit_group(const Engine& engine, const G& g, double time, BondKind kind, const PairRates& pairs, sweep::StepLimit& limit) {
   if constexpr (particles::is_mobile<typename G::Mobility>) {
@@ -191,9 +200,9 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
     std::vector<double> forced;      // omega^2 of forcings; empty without any that have a stiffness
     double drag = 0.0;
     for_each_bonds_of(engine, g, kind,
-                      [&](const auto& item, double stiffness, double damping, const neighbours::BondList& list, const auto& partners) {
+                      [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto& partners) {
                         hold.resize(g.size());
-                        add_hold(engine, item, stiffness, damping, list, g, partners, hold);
+                        add_hold(engine, item, per_mass, list, g, partners, hold);
                       });
     std::vector<double> stiffness(hold.size()), dashpot(hold.size());  // omega^2 and lambda of bonds
     if (!hold.empty())
@@ -248,7 +257,9 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
       if (!springs || half >= 0.5)
         bound_by = damping >= drag && damping >= pairs.damping ? bond_dashpots : drag >= pairs.damping ? drags : viscosities;
       else
-        bound_by = bonds >= forcings && bonds >= pairs.oscillation ? bond_springs : forcings >= pairs.oscillation ? forcing_springs : potentials;
+        bound_by = bonds >= forcings && bonds >= pairs.oscillation ? bond_springs
+                   : forcings >= pairs.oscillation                 ? forcing_springs
+                                                                   : potentials;
     }
     if (shortest == std::numeric_limits<double>::infinity()) return;
     std::string law;

@@ -81,6 +81,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
   /// until then.
   [[nodiscard]] bool lists_are_worn() {
     if constexpr (has_pairs) {
+      if (this->exclusions_are_worn()) return true;
       relative_motion_.start();
       for_each_group_in_pairs([this](auto& g) {
         for (const auto& runs : g.runs) relative_motion_.add(runs);

@@ -78,7 +78,7 @@ template <class Tag, class Scene>
         const auto& a = scene.template group<typename I::A>();
         const auto& b = scene.template group<typename I::B>();
         for (const auto& one : active.item.bonds) {
-          if (scene.engine().is_broken(active, one)) continue;
+          if (scene.engine().is_broken(active, one) || (active.of_a.empty() && active.of_b.empty())) continue;
           const Vector<dim> apart = neighbours::minimum_image<dim>(a.positions()[one.i] - b.positions()[one.j], scene.engine().box());
           const double length = apart.norm();
           if (!(length > 0.0)) continue;
@@ -88,7 +88,8 @@ template <class Tag, class Scene>
           seen.length_rate =
               apart.dot(scene.engine().seen_velocity(a, one.i, 0.0) - scene.engine().seen_velocity(b, one.j, 0.0)) / length;
           if constexpr (bond::HasMemory<decltype(I::law)>)
-            seen.memory = scene.engine().look_up(active, one, [](const auto& list, std::size_t i, std::size_t k) { return list.memory_at(i, k); });
+            seen.memory =
+                scene.engine().look_up(active, one, [](const auto& list, std::size_t i, std::size_t k) { return list.memory_at(i, k); });
           double tension = active.item.law.tension(seen);
           if constexpr (requires { active.item.law.dashpot; }) tension += active.item.law.dashpot.tension(seen);
           load += (std::is_same_v<typename I::A, Tag> ? -1.0 : 1.0) * one.weight * tension / length * apart;

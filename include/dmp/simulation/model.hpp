@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -134,10 +135,15 @@ class Model {
   /// Whether a bond of an item has broken.
   template <class Active>
   [[nodiscard]] static bool is_broken([[maybe_unused]] const Active& active, [[maybe_unused]] const neighbours::Bond& bond) noexcept {
-    if constexpr (bond::CanBreak<decltype(active.item.law)>)
+    if constexpr (bond::CanBreak<decltype(active.item.law)>) {
+      if (active.of_a.empty() && active.of_b.empty()) return false;  // between groups that do not move: never asked
       return look_up(active, bond, [](const auto& list, std::size_t i, std::size_t entry) { return list.of(i).rest_length[entry] < 0.0; });
-    else return false;
+    }
+    return false;
   }
+
+  /// What broken bonds had left out is found anew with the next lists.
+  void forget_exclusions() noexcept { whole_bonds_ = std::numeric_limits<std::size_t>::max(); }
 
   /// The first bond that is longer than a bond may be in a periodic box; nullptr if there is none.
   template <class Active>
@@ -195,14 +201,16 @@ class Model {
     });
   }
 
+  /// Whether bonds have broken since exclusions were found.
+  [[nodiscard]] bool exclusions_are_worn() const noexcept {
+    if constexpr (has_pairs && bonds_break) return excluded_reach() > 0 && whole_bonds() != whole_bonds_;
+    else return false;
+  }
   /// Pairs that were left out because of bonds that have broken since are pairs again.
   void renew_exclusions() {
-    std::size_t whole = 0;
-    for_each_item([&whole](const auto& active) {
-      if constexpr (is_bonds<std::remove_cvref_t<decltype(active.item)>>)
-        if constexpr (bond::CanBreak<decltype(active.item.law)>) whole += active.of_a.whole() + active.of_b.whole();
-    });
-    if (std::exchange(whole_bonds_, whole) != whole) prepare_exclusions();
+    if (!exclusions_are_worn()) return;
+    whole_bonds_ = whole_bonds();
+    prepare_exclusions();
   }
 
   geometry::Box<Dim> box_;
@@ -265,12 +273,30 @@ class Model {
     });
   }
 
-  void prepare_exclusions() {
+  static constexpr bool bonds_break = [] {
+    return ([] {
+      if constexpr (is_bonds<Item>) return bond::CanBreak<decltype(Item::law)>;
+      return false;
+    }() || ...);
+  }();
+  [[nodiscard]] std::size_t whole_bonds() const noexcept {  // of those that may break
+    std::size_t whole = 0;
+    for_each_item([&whole](const auto& active) {
+      if constexpr (is_bonds<std::remove_cvref_t<decltype(active.item)>>)
+        if constexpr (bond::CanBreak<decltype(active.item.law)>) whole += active.of_a.whole() + active.of_b.whole();
+    });
+    return whole;
+  }
+  [[nodiscard]] int excluded_reach() const noexcept {  // the longest of all interactions
     int reach = 0;
     for_each_item([&](const auto& active) {
       if constexpr (is_interaction<std::remove_cvref_t<decltype(active.item)>>) reach = std::max(reach, active.item.excluded_reach);
     });
-    if (reach == 0) return;
+    return reach;
+  }
+
+  void prepare_exclusions() {
+    if (excluded_reach() == 0) return;
     std::array<std::uint32_t, std::tuple_size_v<Groups> + 1> first{};
     for_each_group([&](const auto& g) {
       const std::size_t k = index_of<typename std::remove_cvref_t<decltype(g)>::Tag>();
@@ -301,7 +327,7 @@ class Model {
 
   Groups groups_;
   Items items_;
-  std::size_t whole_bonds_ = 0;  // of those that may break, when exclusions were last found
+  std::size_t whole_bonds_ = std::numeric_limits<std::size_t>::max();  // of those that may break, when exclusions were last found
 };
 
 }  // namespace dmp::simulation

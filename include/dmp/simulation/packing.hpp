@@ -29,7 +29,8 @@ class Packing : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   /// Calls function(laws...) with the material laws of a group; what was chosen at run time is looked up here, once.
   template <class G, class Function>
   void with_materials(const G&, Function&& function) const {
-    const auto laws = std::apply([](const auto&... active) { return std::tuple_cat(laws_for<typename G::Tag>(active.item)...); }, this->items());
+    const auto laws =
+        std::apply([](const auto&... active) { return std::tuple_cat(laws_for<typename G::Tag>(active.item)...); }, this->items());
     std::apply([&](const auto&... law) { sweep::with_chosen(function, law...); }, laws);
   }
   /// Particle i as the material laws complete it: state, pressure term, viscosity, ...; `dt` [s] is the step under way, 0 between steps.

@@ -11,9 +11,9 @@
 
 namespace dmp::simulation {
 
-/// A field at a fixed point, from the particles of one group around it: sum_j V_j f_j W(r_j) / sum_j V_j W(r_j), V = m/rho where the group has
-/// a density, else 1 (D. Shepard, Proc. 23rd ACM Nat. Conf. (1968) 517-524, doi:10.1145/800186.810616). Exact for a constant field. Nothing
-/// where no particle is within the support: the probe is dry.
+/// A field at a fixed point, from the particles of one group around it: sum_j V_j f_j W(r_j) / sum_j V_j W(r_j), V = m/rho where the group
+/// has a density, else 1 (D. Shepard, Proc. 23rd ACM Nat. Conf. (1968) 517-524, doi:10.1145/800186.810616). Exact for a constant field.
+/// Nothing where no particle is within the support: the probe is dry.
 ///   const auto speed = probe<Water, field::Velocity>(scene, kernel, {1.0, 0.2});
 template <class Tag, class Field, class Scene, class Kernel>
 [[nodiscard]] std::optional<particles::Value<Scene::dimension, Field>> probe(const Scene& scene, const Kernel& kernel,
@@ -44,7 +44,9 @@ template <class Scene>
       const auto& first = scene.template group<typename I::A>().positions();
       const auto& second = scene.template group<typename I::B>().positions();
       for (const auto& bond : active.item.bonds)
-        if (!scene.engine().is_broken(active, bond) && neighbours::minimum_image<Scene::dimension>(first[bond.i] - second[bond.j], scene.engine().box()).isZero(0.0)) ++count;
+        if (!scene.engine().is_broken(active, bond) &&
+            neighbours::minimum_image<Scene::dimension>(first[bond.i] - second[bond.j], scene.engine().box()).isZero(0.0))
+          ++count;
     }
   });
   return count;

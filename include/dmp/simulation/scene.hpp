@@ -23,7 +23,8 @@ namespace dmp::simulation {
 /// How far to run, and with which step.
 struct RunOptions {
   Required<double> until;           ///< end of the run [s]
-  double time_step = 0.0;           ///< [s]; 0: from the laws' bounds, reconsidered every 10 steps, with a viscosity of the shear rate every step
+  double time_step = 0.0;  ///< [s], held against the laws' bounds as often as values are checked; 0: from the bounds, reconsidered every
+                           ///< 10 steps, with a viscosity of the shear rate every step
   double safety = 0.9;              ///< fraction of the smallest bound that is taken when time_step is 0; 0 < safety <= 1
   std::uint64_t check_every = 100;  ///< steps between two checks of all values (finite, in the box)
 };
@@ -130,10 +131,8 @@ class Scene {
           if (options.time_step == 0.0 && clock_.step % steps_between_choices == 0) {
             const auto limit = find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
             if (limit.time_step < report.limit.time_step) report.limit = limit;
-            if (!(limit.time_step < std::numeric_limits<double>::infinity()))
-              throw SimulationError("no law of this scene bounds the time step any more; give one as time_step",
-                                    {clock_.time, clock_.step, "", -1, "", 0.0});
-            choose_step(options.safety * limit.time_step);
+            const bool is_bound = limit.time_step < std::numeric_limits<double>::infinity();  // else all bonds have broken
+            choose_step(is_bound ? options.safety * limit.time_step : clock_.time_step);
             if (!(clock_.time_step > 1e-6 * first_step))
               throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")",
                                     {clock_.time, clock_.step, "", -1, "time_step", clock_.time_step});
@@ -147,14 +146,16 @@ class Scene {
           engine_.build_lists(false);
         }
         engine_.prepare_forces(clock_.time_step, clock_.step, worn);
-        if (engine_.has_refused()) check_materials(engine_, clock_, clock_.time_step);  // of what has been summed over neighbours, or sub-stepped
+        if (engine_.has_refused())
+          check_materials(engine_, clock_, clock_.time_step);  // of what has been summed over neighbours, or sub-stepped
         engine_.forces(clock_.time_step, clock_.time);
         if (!engine_.dashpots_converged())
           throw SimulationError("the dashpots of implicit_bonds have not been solved for: conjugate gradients did not converge",
                                 {clock_.time, clock_.step, "", -1, "", 0.0});
         ++report.steps;
         // Where nobody looks at the state between two steps, the end of one and the beginning of the next are one pass.
-        const bool checks = clock_.step % options.check_every == 0, chooses = (options.time_step == 0.0 || bounds_jump) && clock_.step % steps_between_choices == 0;
+        const bool checks = clock_.step % options.check_every == 0,
+                   chooses = (options.time_step == 0.0 || bounds_jump || has_substeps) && clock_.step % steps_between_choices == 0;
         begun = !checks && !chooses && !observes() && goes_further();
         if (begun) {
           clock_.tick();
@@ -168,11 +169,13 @@ class Scene {
           take_snapshot();
         }
         if (options.time_step > 0.0 && (checks || chooses)) check_step(report.limit);
+        if (options.time_step > 0.0 && chooses) reconsider_substeps();
         observe();
         bar.show(clock_.time);
       }
       check_state(engine_, clock_);
       check_materials(engine_, clock_, 0.0);
+      if (options.time_step > 0.0) check_step(report.limit);
       report.time_step = clock_.time_step;
       report.step_bound_by = options.time_step == 0.0
                                  ? report.limit.bound_by
@@ -211,6 +214,7 @@ class Scene {
   void restart(const std::string& path) {
     clock_ = read_checkpoint(path, signature(), views_of(engine_));
     for (auto& observer : observers_) observer.done = due(observer);
+    engine_.forget_exclusions();
     engine_.build_lists(true);
     if (clock_.step == 0) engine_.start_afresh();
     prepared_ = true;
@@ -246,8 +250,20 @@ class Scene {
   }
 
   void choose_step(double dt) {
+    const bool goes_on = dt == clock_.time_step && clock_.substeps > 0 && clock_.step % steps_between_choices != 0;
     clock_.choose(dt);
-    if constexpr (has_substeps) engine_.set_substeps(substeps_for<Integrator>(engine_, dt));
+    if constexpr (has_substeps) {
+      if (!goes_on) clock_.substeps = static_cast<std::uint64_t>(substeps_for<Integrator>(engine_, dt));
+      engine_.set_substeps(static_cast<int>(clock_.substeps));
+    }
+  }
+  /// Bonds turn and break, so that other sub-steps may be needed in a step that stays as it was given.
+  void reconsider_substeps() {
+    try {
+      choose_step(clock_.time_step);
+    } catch (const ParameterError& error) {
+      throw SimulationError(error.what(), {clock_.time, clock_.step, "", -1, "", 0.0});
+    }
   }
   /// Multiples of the observer's interval that have passed.
   [[nodiscard]] double due(const Observer& observer) const {

@@ -25,6 +25,7 @@ struct Clock {
   double base_time = 0.0;       ///< [s] when this time step was chosen: time = base_time + (step - base_step) time_step
   std::uint64_t base_step = 0;  ///< step at that time
   std::uint64_t automatic = 0;  ///< 1 if this time step was chosen from the laws' bounds
+  std::uint64_t substeps = 0;   ///< of sub-stepped bonds in a step; 0: not chosen yet
 
   /// From here on steps of `dt` [s]. The same step again changes nothing, so that a run in two parts does the arithmetic of one.
   void choose(double dt) noexcept {
@@ -112,7 +113,7 @@ struct Snapshot {
 namespace detail {
 inline void write_clock(io::CheckpointWriter& writer, const Clock& clock) {
   const std::array<double, 3> times{clock.time, clock.time_step, clock.base_time};
-  const std::array<std::uint64_t, 3> steps{clock.step, clock.base_step, clock.automatic};
+  const std::array<std::uint64_t, 4> steps{clock.step, clock.base_step, clock.automatic, clock.substeps};
   writer.add("clock.times", std::span<const double>(times));
   writer.add("clock.steps", std::span<const std::uint64_t>(steps));
 }
@@ -163,12 +164,13 @@ inline void write_checkpoint(const std::string& path, const std::string& signatu
   const std::type_identity<double> numbers;
   const std::type_identity<std::uint64_t> counts;
   const auto time = read("clock.times", 3, numbers);
-  const auto step = read("clock.steps", 3, counts);
-  const Clock clock{time[0], step[0], time[1], time[2], step[1], step[2]};
+  const auto step = read("clock.steps", 4, counts);
+  const Clock clock{time[0], step[0], time[1], time[2], step[1], step[2], step[3]};
   for (const double t : time) require(t - t == 0.0, "clock.times must be finite", to_text(t));
   require(clock.time_step >= 0.0, "the time step must be >= 0", to_text(clock.time_step));
   require(clock.base_step <= clock.step, "the step at which the time step was chosen must be <= " + std::to_string(clock.step),
           std::to_string(clock.base_step));
+  require(clock.substeps <= 1000000, "sub-steps must be <= 1000000", std::to_string(clock.substeps));
 
   std::vector<std::vector<double>> columns;
   std::vector<std::vector<std::uint32_t>> ids;

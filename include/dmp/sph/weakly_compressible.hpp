@@ -85,7 +85,8 @@ struct WeaklyCompressible {
     const double rate = viscosity.damping_rate(nu, h, kernel::largest_radial_factor_sum(kernel), K::dimension);
     limit.damp(rate, state.damping_limit, "viscosity");
     if constexpr (requires { diffusion.damping_rate(h, h); })
-      limit.require_below(state.state_damping_limit / diffusion.damping_rate(h, kernel::largest_radial_factor_sum(kernel)), "density diffusion");
+      limit.require_below(state.state_damping_limit / diffusion.damping_rate(h, kernel::largest_radial_factor_sum(kernel)),
+                          "density diffusion");
   }
 };
 

@@ -146,7 +146,8 @@ template <int Dim, bool Periodic, bool PositionsAlone = false, class React, clas
     const Lanes length_squared = sum_across(squares), length = sqrt(length_squared);
     const Lanes inverse = length * (1.0 / length_squared);  // the division need not wait for the root
     const auto stretch = [&]() __attribute__((always_inline)) {
-      if constexpr (with_velocity) return bond::MovingStretch<Lanes>{{length, rest_length}, select(length_squared > 0.0, inverse * sum_across(approaches), 0.0)};
+      if constexpr (with_velocity)
+        return bond::MovingStretch<Lanes>{{length, rest_length}, select(length_squared > 0.0, inverse * sum_across(approaches), 0.0)};
       else return bond::Stretch<Lanes>{length, rest_length};
     }
     ();

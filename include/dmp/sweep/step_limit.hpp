@@ -5,7 +5,7 @@
 
 namespace dmp::sweep {
 
-/// What a law needs to state its own stability bound: extremes over the particles it acts on, and what the integrator stands.
+/// What a law needs to state its own stability bound: extremes over the particles it acts on, and what the integrator can stand.
 struct StepState {
   double speed = 0.0;                                     ///< largest |v| [m/s]
   double acceleration = 0.0;                              ///< largest |a| [m/s^2]
