@@ -23,7 +23,7 @@ void check(const Case& c) {
   const Outcome past = c.run(c.stopped * c.stated, 2000);
   CHECK(past.error.starts_with("dmp: "));
   CHECK(past.where.step > 0);
-  if (past.error.find("the given time step is longer than") != std::string::npos) return;  // stretched bonds have lowered the bound: no one particle's
+  if (past.error.find("conjugate gradients did not converge") != std::string::npos) return;  // no one particle's
   CHECK(past.where.group != "");
   CHECK(past.where.particle >= 0);
   CHECK(past.where.field != "");

@@ -35,6 +35,8 @@ struct Driven {
   static constexpr bool moves = true, evolves = true;
   Motion motion;
 };
+template <class Motion>
+Driven(Motion) -> Driven<Motion>;
 
 template <class M>
 inline constexpr bool is_driven = false;

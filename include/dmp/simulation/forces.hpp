@@ -124,6 +124,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
     };
     const auto react = [plus](std::size_t at, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
       if constexpr (std::is_same_v<Source, typename G::Tag>) plus(at, factor, vector);
+      else static_cast<void>(plus);
     };
     const std::size_t own = i * static_cast<std::size_t>(G::Sums::stride);
     if (list.crosses(i))
