@@ -131,7 +131,10 @@ class Scene {
           if (options.time_step == 0.0 && clock_.step % steps_between_choices == 0) {
             const auto limit = find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
             if (limit.time_step < report.limit.time_step) report.limit = limit;
-            const bool is_bound = limit.time_step < std::numeric_limits<double>::infinity();  // else all bonds have broken
+            const bool is_bound = limit.time_step < std::numeric_limits<double>::infinity();
+            if (!is_bound && !bonds_break)  // broken bonds need no bound, a body that has left a plane may meet it again
+              throw SimulationError("no law of this scene bounds the time step any more; give one as time_step",
+                                    {clock_.time, clock_.step, "", -1, "", 0.0});
             choose_step(is_bound ? options.safety * limit.time_step : clock_.time_step);
             if (!(clock_.time_step > 1e-6 * first_step))
               throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")",
@@ -175,7 +178,7 @@ class Scene {
       }
       check_state(engine_, clock_);
       check_materials(engine_, clock_, 0.0);
-      if (options.time_step > 0.0) check_step(report.limit);
+      if (has_bonds && options.time_step > 0.0) check_step(report.limit);  // their bound follows how they turn, from step to step
       report.time_step = clock_.time_step;
       report.step_bound_by = options.time_step == 0.0
                                  ? report.limit.bound_by
@@ -229,6 +232,13 @@ class Scene {
   static constexpr bool bounds_jump = [] {
     return ([] {
       if constexpr (is_summed<Item>) return contains<field::ShearRate, typename decltype(Item::law)::sets>;
+      return false;
+    }() || ...);
+  }();
+  static constexpr bool has_bonds = (is_bonds<Item> || ...);
+  static constexpr bool bonds_break = [] {
+    return ([] {
+      if constexpr (is_bonds<Item>) return bond::CanBreak<decltype(Item::law)>;
       return false;
     }() || ...);
   }();
