@@ -1,4 +1,5 @@
 #pragma once
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -11,6 +12,13 @@ template <int Count, class Function>
   [&]<int... Index>(std::integer_sequence<int, Index...>) __attribute__((always_inline)) {
     (function(std::integral_constant<int, Index>{}), ...);
   }(std::make_integer_sequence<int, Count>{});
+}
+
+/// Calls function(element) for every element of a tuple, in order, in the caller's own loop: what std::apply may leave as a call.
+template <class Tuple, class Function>
+[[gnu::always_inline]] constexpr void for_each_of(Tuple& tuple, Function&& function) {
+  unrolled<static_cast<int>(std::tuple_size_v<std::remove_const_t<Tuple>>)>([&](auto index)
+                                                                    __attribute__((always_inline)) { function(std::get<index>(tuple)); });
 }
 
 }  // namespace dmp

@@ -134,7 +134,7 @@ class BondList {
     const std::size_t first = memory_.empty() ? 0 : offset_[i];
     return {rest_length_.data() + offset_[i], memory_.data() + first, length_.data() + first};
   }
-  [[nodiscard]] double memory_at(std::size_t i, std::size_t k) const noexcept { return memory_[offset_[i] + k]; }
+  [[nodiscard]] const double* memories_of(std::size_t i) const noexcept { return memory_.data() + offset_[i]; }
   /// All of it, for checkpoints.
   [[nodiscard]] particles::GroupView view(std::string name) {
     particles::GroupView result{std::move(name), "bonds", true, {}, {{"rest_length", "m", 1, rest_length_, false}}};

@@ -6,7 +6,6 @@
 #include <tuple>
 #include <type_traits>
 #include <vector>
-#include <Eigen/Eigenvalues>
 #include <dmp/bond/concept.hpp>
 #include <dmp/core/math.hpp>
 #include <dmp/core/require.hpp>
@@ -14,6 +13,7 @@
 #include <dmp/forcing/concept.hpp>
 #include <dmp/particles/mobility.hpp>
 #include <dmp/simulation/composition.hpp>
+#include <dmp/simulation/holds.hpp>
 #include <dmp/sweep/step_limit.hpp>
 
 namespace dmp::simulation {
@@ -92,12 +92,6 @@ void for_each_bonds_of(const Engine& engine, const G& g, BondKind kind, Function
   });
 }
 
-template <class Law>
-[[nodiscard]] double largest_damping(const Law& law) {
-  if constexpr (bond::UsesVelocity<Law>) return law.largest_damping();
-  else return 0.0;
-}
-
 /// The two groups that bonds join; and which item it is, in the order of declaration, where several join the same two.
 template <class Engine, class I>
 [[nodiscard]] std::string name_of_bonds(const Engine& engine, const I& item) {
@@ -128,59 +122,6 @@ template <class Engine, class G>
   return name;
 }
 
-/// How bonds hold a particle, per mass: springs [1/s^2] and dashpots [1/s].
-template <int Dim>
-struct Hold {
-  Eigen::Matrix<double, Dim, Dim> springs = Eigen::Matrix<double, Dim, Dim>::Zero(), dashpots = springs;
-};
-template <int Dim>
-[[nodiscard]] double largest_eigenvalue(const Eigen::Matrix<double, Dim, Dim>& symmetric) {
-  if constexpr (Dim == 1) return symmetric(0, 0);
-  else
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>()
-        .computeDirect(symmetric, Eigen::EigenvaluesOnly)
-        .eigenvalues()[Dim - 1];
-}
-
-/// Adds what the bonds of one item do to the particles of a group as they stand now: f k/m n n^T, f c/m n n^T, and across a bond under
-/// tension f T/(m r) (1 - n n^T). A bond of length zero may act in any direction.
-template <class Engine, class Item, class G, class Partners>
-void add_hold(const Engine& engine, const Item& item, double per_mass, const neighbours::BondList& list, const G& g,
-              const Partners& partners, std::vector<Hold<G::Dim>>& hold) {
-  constexpr int Dim = G::Dim;
-  const double stiffness = per_mass * item.law.largest_stiffness(), damping = per_mass * largest_damping(item.law);
-  constexpr bool same = std::is_same_v<G, Partners>;
-  for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-    for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
-      const auto bonds = list.of(i);
-      for (std::size_t k = 0; k < bonds.size; ++k) {
-        if (bonds.rest_length[k] < 0.0) continue;
-        const std::size_t j = list.partner_of(i, k);
-        const Vector<Dim> apart = neighbours::minimum_image<Dim>(g.positions()[i] - partners.positions()[j], engine.box());
-        const double squared = apart.squaredNorm(), weight = bonds.weight[k * bonds.weight_step];
-        using Matrix = Eigen::Matrix<double, Dim, Dim>;
-        const Matrix all_ways = weight * Matrix::Identity(),
-                     along = squared > 0.0 ? Matrix(weight / squared * apart * apart.transpose()) : all_ways;
-        double across = 0.0;
-        if (squared > 0.0) {
-          bond::Remembering<bond::MovingStretch<double>, double> seen{};
-          seen.length = std::sqrt(squared);
-          seen.rest_length = bonds.rest_length[k];
-          if constexpr (bond::HasMemory<decltype(Item::law)>) seen.memory = list.memory_at(i, k);
-          across = per_mass * std::max(0.0, item.law.tension(seen) / seen.length);
-        }
-        const Hold<Dim> one{stiffness * along + across * (all_ways - along), damping * along};
-        const auto add = [&one](Hold<Dim>& to) {
-          to.springs += one.springs;
-          to.dashpots += one.dashpots;
-        };
-        add(hold[i]);
-        if (same && list.is_listed_once(i, k)) add(hold[j]);  // in the same block
-      }
-    }
-  });
-}
-
 /// What the pair laws of one interaction do to the particles of a group, the largest of all interactions.
 struct PairRates {
   double damping = 0.0;      ///< lambda [1/s]
@@ -196,22 +137,13 @@ struct PairRates {
 template <class Integrator, class Engine, class G>
 void limit_group(const Engine& engine, const G& g, double time, BondKind kind, const PairRates& pairs, sweep::StepLimit& limit) {
   if constexpr (particles::is_mobile<typename G::Mobility>) {
-    std::vector<Hold<G::Dim>> hold;  // empty without bonds
-    std::vector<double> forced;      // omega^2 of forcings; empty without any that have a stiffness
+    Holds<G::Dim> springs, dashpots;  // of bonds; empty without any
+    std::vector<double> forced;       // omega^2 of forcings; empty without any that have a stiffness
     double drag = 0.0;
     for_each_bonds_of(engine, g, kind,
                       [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto& partners) {
-                        hold.resize(g.size());
-                        add_hold(engine, item, per_mass, list, g, partners, hold);
+                        add_holds(item.law, per_mass, list, g, partners, engine.box(), springs, dashpots);
                       });
-    std::vector<double> stiffness(hold.size()), dashpot(hold.size());  // omega^2 and lambda of bonds
-    if (!hold.empty())
-      for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-          stiffness[i] = largest_eigenvalue<G::Dim>(hold[i].springs);
-          dashpot[i] = hold[i].dashpots.isZero(0.0) ? 0.0 : largest_eigenvalue<G::Dim>(hold[i].dashpots);
-        }
-      });
     engine.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_forced<I>)
@@ -234,44 +166,63 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
               active.item.laws);
     });
     if (drag > 0.0) limit.require_below(Integrator::damping_limit / (drag + pairs.damping), "drag on " + g.name);
-    double shortest = std::numeric_limits<double>::infinity();
-    std::size_t where = 0;
-    enum { bond_dashpots, drags, viscosities, bond_springs, forcing_springs, potentials } bound_by = bond_dashpots;
-    const std::size_t rows = std::max({stiffness.size(), forced.size(), std::size_t{pairs.oscillation > 0.0 ? 1u : 0u}});
-    for (std::size_t i = 0; i < rows; ++i) {
-      const double bonds = stiffness.empty() ? 0.0 : stiffness[i], forcings = forced.empty() ? 0.0 : forced[i];
-      const double damping = dashpot.empty() ? 0.0 : dashpot[i], squared = bonds + forcings + pairs.oscillation;
+    enum class By { bond_dashpots, drags, viscosities, bond_springs, forcing_springs, potentials };
+    struct Shortest {
+      double bound = std::numeric_limits<double>::infinity();
+      std::size_t where = 0;
+      By by = By::bond_dashpots;
+    };
+    const auto bound_of = [&](std::size_t i, double bonds, double damping) {
+      const double forcings = forced.empty() ? 0.0 : forced[i], squared = bonds + forcings + pairs.oscillation;
       const double per_damping = (damping + drag + pairs.damping) / Integrator::damping_limit;
       const double oscillation = Integrator::oscillation_limit / std::sqrt(squared), half = 0.5 * oscillation * per_damping;
-      const bool springs = squared > 0.0;
-      if (!springs && damping == 0.0) continue;
-      double bound = springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
+      const bool has_springs = squared > 0.0;
+      Shortest result{.where = i};
+      if (!has_springs && damping == 0.0) return result;
+      result.bound = has_springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
       if constexpr (requires { Integrator::coupled_limit; })
-        if (springs && pairs.sound > 0.0) {
+        if (has_springs && pairs.sound > 0.0) {
           const double sound = square(pairs.sound), undamped = 1.0 / std::sqrt(sound + squared / square(Integrator::coupled_limit));
-          bound = std::min(bound, std::max(undamped, (damping + drag + pairs.damping) / (Integrator::coupled_damping * sound)));
+          result.bound =
+              std::min(result.bound, std::max(undamped, (damping + drag + pairs.damping) / (Integrator::coupled_damping * sound)));
         }
-      if (bound >= shortest) continue;
-      shortest = bound;
-      where = i;
-      if (!springs || half >= 0.5)
-        bound_by = damping >= drag && damping >= pairs.damping ? bond_dashpots : drag >= pairs.damping ? drags : viscosities;
+      if (!(result.bound >= 0.0)) result.bound = 0.0;  // not a number: no step is short enough
+      if (!has_springs || half >= 0.5)
+        result.by = damping >= drag && damping >= pairs.damping ? By::bond_dashpots
+                    : drag >= pairs.damping                     ? By::drags
+                                                                : By::viscosities;
       else
-        bound_by = bonds >= forcings && bonds >= pairs.oscillation ? bond_springs
-                   : forcings >= pairs.oscillation                 ? forcing_springs
-                                                                   : potentials;
-    }
-    if (shortest == std::numeric_limits<double>::infinity()) return;
+        result.by = bonds >= forcings && bonds >= pairs.oscillation ? By::bond_springs
+                    : forcings >= pairs.oscillation                 ? By::forcing_springs
+                                                                    : By::potentials;
+      return result;
+    };
+    if (springs.empty() && dashpots.empty() && forced.empty() && !(pairs.oscillation > 0.0)) return;
+    // Eigenvalues only where they may matter. The margin, of rounding, keeps that from depending on how rows are divided among threads.
+    const auto shortest = merge_ranges(
+        g.blocks.ranges(), Shortest{},
+        [&](std::size_t first, std::size_t last) {
+          Shortest part;
+          for (std::size_t i = first; i < last; ++i) {
+            const bool no_sound = !(pairs.sound > 0.0);  // beside sound, dashpots may allow a longer step
+            if (no_sound && bound_of(i, springs.at_most(i), dashpots.at_most(i)).bound > (1.0 + 1e-9) * part.bound) continue;
+            const auto one = bound_of(i, springs.largest(i), dashpots.largest(i));
+            if (one.bound < part.bound) part = one;
+          }
+          return part;
+        },
+        [](const Shortest& a, const Shortest& b) { return a.bound < b.bound || (a.bound == b.bound && a.where < b.where) ? a : b; });
+    if (shortest.bound == std::numeric_limits<double>::infinity()) return;
     std::string law;
-    switch (bound_by) {
-      case bond_dashpots: law = "bond dashpot of " + binding_bonds(engine, g, kind, where, true); break;
-      case bond_springs: law = "bond stiffness of " + binding_bonds(engine, g, kind, where, false); break;
-      case drags: law = "drag on " + g.name; break;
-      case forcing_springs: law = "stiffness of a forcing on " + g.name; break;
-      case viscosities: law = "viscosity of " + g.name; break;
-      case potentials: law = "pair potential of " + g.name; break;
+    switch (shortest.by) {
+      case By::bond_dashpots: law = "bond dashpot of " + binding_bonds(engine, g, kind, shortest.where, true); break;
+      case By::bond_springs: law = "bond stiffness of " + binding_bonds(engine, g, kind, shortest.where, false); break;
+      case By::drags: law = "drag on " + g.name; break;
+      case By::forcing_springs: law = "stiffness of a forcing on " + g.name; break;
+      case By::viscosities: law = "viscosity of " + g.name; break;
+      case By::potentials: law = "pair potential of " + g.name; break;
     }
-    limit.require_below(shortest, law);
+    limit.require_below(shortest.bound, law);
   }
 }
 

@@ -89,7 +89,7 @@ template <class Tag, class Scene>
               apart.dot(scene.engine().seen_velocity(a, one.i, 0.0) - scene.engine().seen_velocity(b, one.j, 0.0)) / length;
           if constexpr (bond::HasMemory<decltype(I::law)>)
             seen.memory =
-                scene.engine().look_up(active, one, [](const auto& list, std::size_t i, std::size_t k) { return list.memory_at(i, k); });
+                scene.engine().look_up(active, one, [](const auto& list, std::size_t i, std::size_t k) { return list.memories_of(i)[k]; });
           double tension = active.item.law.tension(seen);
           if constexpr (requires { active.item.law.dashpot; }) tension += active.item.law.dashpot.tension(seen);
           load += (std::is_same_v<typename I::A, Tag> ? -1.0 : 1.0) * one.weight * tension / length * apart;

@@ -106,20 +106,20 @@ class Model {
     return std::get<index_of<Tag>()>(groups_);
   }
   template <class Function>
-  void for_each_group(Function&& function) {
-    std::apply([&](auto&... g) { (function(g), ...); }, groups_);
+  [[gnu::always_inline]] void for_each_group(Function&& function) {
+    for_each_of(groups_, function);
   }
   template <class Function>
-  void for_each_group(Function&& function) const {
-    std::apply([&](const auto&... g) { (function(g), ...); }, groups_);
+  [[gnu::always_inline]] void for_each_group(Function&& function) const {
+    for_each_of(groups_, function);
   }
   template <class Function>
-  void for_each_item(Function&& function) {
-    std::apply([&](auto&... active) { (function(active), ...); }, items_);
+  [[gnu::always_inline]] void for_each_item(Function&& function) {
+    for_each_of(items_, function);
   }
   template <class Function>
-  void for_each_item(Function&& function) const {
-    std::apply([&](const auto&... active) { (function(active), ...); }, items_);
+  [[gnu::always_inline]] void for_each_item(Function&& function) const {
+    for_each_of(items_, function);
   }
 
   /// Calls function(list, row, entry): where a bond of an item is listed; at its first end, if at both.

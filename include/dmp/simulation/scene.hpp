@@ -125,7 +125,7 @@ class Scene {
       Progress bar(shows_progress_, clock_.time, options.until);
       observe();
       const auto goes_further = [&] { return clock_.time < options.until - 0.5 * clock_.time_step; };
-      bool begun = false, worn = false;
+      bool begun = false, worn = false, bounds_checked = false;  // of the present state
       while (begun || goes_further()) {
         if (!begun) {
           if (options.time_step == 0.0 && clock_.step % steps_between_choices == 0) {
@@ -171,14 +171,16 @@ class Scene {
           check_materials(engine_, clock_, 0.0);
           take_snapshot();
         }
-        if (options.time_step > 0.0 && (checks || chooses)) check_step(report.limit);
+        bounds_checked = options.time_step > 0.0 && (checks || chooses);
+        if (bounds_checked) check_step(report.limit);
         if (options.time_step > 0.0 && chooses) reconsider_substeps();
         observe();
         bar.show(clock_.time);
       }
       check_state(engine_, clock_);
       check_materials(engine_, clock_, 0.0);
-      if (has_bonds && options.time_step > 0.0) check_step(report.limit);  // their bound follows how they turn, from step to step
+      if (has_bonds && options.time_step > 0.0 && !bounds_checked)
+        check_step(report.limit);  // their bound follows how they turn, from step to step
       report.time_step = clock_.time_step;
       report.step_bound_by = options.time_step == 0.0
                                  ? report.limit.bound_by

@@ -1,0 +1,135 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+#include <Eigen/Eigenvalues>
+#include <dmp/bond/concept.hpp>
+#include <dmp/core/aligned.hpp>
+#include <dmp/core/math.hpp>
+#include <dmp/core/pack.hpp>
+#include <dmp/core/threads.hpp>
+#include <dmp/core/vector.hpp>
+#include <dmp/geometry/box.hpp>
+#include <dmp/neighbours/bond_list.hpp>
+#include <dmp/sweep/gather.hpp>
+
+namespace dmp::simulation::detail {
+
+/// How bonds hold each particle of a group, per mass: a symmetric matrix for each row, springs [1/s^2] or dashpots [1/s].
+template <int Dim>
+class Holds {
+ public:
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  static constexpr int numbers = Dim * (Dim + 1) / 2;  ///< of the upper triangle, row by row
+  static constexpr int stride = (numbers + sweep::Lanes::width - 1) / sweep::Lanes::width * sweep::Lanes::width;
+  /// Row and column of each number.
+  static constexpr auto places = [] {
+    std::array<std::pair<int, int>, numbers> result{};
+    for (int a = 0, n = 0; a < Dim; ++a)
+      for (int b = a; b < Dim; ++b) result[static_cast<std::size_t>(n++)] = {a, b};
+    return result;
+  }();
+
+  /// Zeros in `rows` rows, unless there are some already.
+  void make(std::size_t rows) {
+    if (data_.empty()) data_.assign(rows * stride, 0.0);
+  }
+  [[nodiscard]] bool empty() const noexcept { return data_.empty(); }
+  [[nodiscard]] double* data() noexcept { return data_.data(); }
+  [[nodiscard]] Matrix of(std::size_t row) const noexcept {
+    Matrix matrix;
+    for (std::size_t n = 0; n < numbers; ++n)
+      matrix(places[n].first, places[n].second) = matrix(places[n].second, places[n].first) = data_[row * stride + n];
+    return matrix;
+  }
+  /// Largest eigenvalue; and what it does not exceed, much faster: the largest sum of magnitudes in a line (Gershgorin).
+  [[nodiscard]] double largest(std::size_t row) const {
+    if (empty()) return 0.0;
+    if constexpr (Dim == 1) return data_[row * stride];
+    else return Eigen::SelfAdjointEigenSolver<Matrix>().computeDirect(of(row), Eigen::EigenvaluesOnly).eigenvalues()[Dim - 1];
+  }
+  [[nodiscard]] double at_most(std::size_t row) const noexcept {
+    if (empty()) return 0.0;
+    return of(row).cwiseAbs().colwise().sum().maxCoeff();
+  }
+
+ private:
+  AlignedVector<double> data_;
+};
+
+template <class Law>
+[[nodiscard]] double largest_damping(const Law& law) {
+  if constexpr (bond::UsesVelocity<Law>) return law.largest_damping();
+  else return 0.0;
+}
+
+/// Adds what the bonds of one item do to the particles of a group as they stand now, for each unit of mass `per_mass` = f/m: f k/m n n^T to
+/// the springs, f c/m n n^T to the dashpots, and across a bond under tension f T/(m r) (1 - n n^T) to the springs. A bond of length zero may
+/// act in any direction.
+template <class Law, class G, class Partners>
+void add_holds(const Law& law, double per_mass, const neighbours::BondList& list, const G& g, const Partners& partners,
+               const geometry::Box<G::Dim>& box, Holds<G::Dim>& springs, Holds<G::Dim>& dashpots) {
+  using sweep::Lanes;
+  constexpr int Dim = G::Dim, width = Lanes::width, numbers = Holds<Dim>::numbers, stride = Holds<Dim>::stride;
+  constexpr bool with_dashpots = bond::UsesVelocity<Law>;
+  const double stiffness = per_mass * law.largest_stiffness(), damping = per_mass * largest_damping(law);
+  springs.make(g.first_ghost());
+  if constexpr (with_dashpots) dashpots.make(g.first_ghost());
+  const auto& there = partners.positions();
+  for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
+    for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
+      const auto bonds = list.of(i);
+      const Vector<Dim>& here = g.positions()[i];
+      Lanes own[numbers], own_dashpots[numbers];
+      for (int n = 0; n < numbers; ++n) own[n] = own_dashpots[n] = 0.0;
+      for (std::size_t k = 0; k < bonds.size; k += width) {
+        Lanes apart[Dim], squared(0.0);
+        unrolled<width>([&](auto lane) __attribute__((always_inline)) {
+          Vector<Dim> one = here - there[bonds.partner[k + lane] / Partners::Records::stride];
+          if (list.crosses(i)) one = neighbours::minimum_image<Dim>(one, box);
+          unrolled<Dim>([&](auto d) __attribute__((always_inline)) { apart[d].raw[static_cast<int>(lane)] = one[d]; });
+        });
+        unrolled<Dim>([&](auto d) __attribute__((always_inline)) { squared += apart[d] * apart[d]; });
+        bond::Remembering<bond::MovingStretch<Lanes>, Lanes> seen{};
+        seen.length = sqrt(squared);
+        seen.rest_length = Lanes::load(bonds.rest_length + k);
+        if constexpr (bond::HasMemory<Law>) seen.memory = Lanes::load(list.memories_of(i) + k);
+        const auto is_bond = seen.rest_length >= 0.0, has_length = squared > 0.0;
+        const Lanes weight = select(is_bond, Lanes::load(bonds.weight + k * bonds.weight_step), 0.0);
+        const Lanes inverse = select(has_length, 1.0 / squared, 0.0);
+        const Lanes tension = law.tension(seen);
+        const Lanes across = select(is_bond && has_length, per_mass * weight * max(tension, 0.0) / seen.length, 0.0);
+        const auto add = [&](double along_all, Lanes across_all, Holds<Dim>& holds, Lanes* sums) __attribute__((always_inline)) {
+          const Lanes along = along_all * weight, in_any = select(has_length, across_all, along), per_square = (along - across_all) * inverse;
+          Lanes terms[numbers];
+          unrolled<numbers>([&](auto n) __attribute__((always_inline)) {
+            constexpr auto place = Holds<Dim>::places[n];
+            terms[n] = per_square * apart[place.first] * apart[place.second];
+            if constexpr (place.first == place.second) terms[n] += in_any;
+            sums[n] += terms[n];
+          });
+          if constexpr (std::is_same_v<G, Partners>) {
+            std::uint32_t row[width];
+            unrolled<width>([&](auto lane) __attribute__((always_inline)) { row[lane] = bonds.reaction[k + lane] / G::Sums::stride; });
+            add_transposed<numbers>(holds.data(), stride, row, terms);
+          }
+        };
+        add(stiffness, across, springs, own);
+        if constexpr (with_dashpots) add(damping, 0.0, dashpots, own_dashpots);
+      }
+      const auto add_own = [&](const Lanes* sums, Holds<Dim>& holds) {
+        double total[numbers];
+        sum_transposed<numbers>(sums, total);
+        for (std::size_t n = 0; n < numbers; ++n) holds.data()[i * stride + n] += total[n];
+      };
+      add_own(own, springs);
+      if constexpr (with_dashpots) add_own(own_dashpots, dashpots);
+    }
+  });
+}
+
+}  // namespace dmp::simulation::detail
