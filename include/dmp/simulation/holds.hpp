@@ -88,6 +88,7 @@ void add_holds(const Law& law, double per_mass, const neighbours::BondList& list
       for (int n = 0; n < numbers; ++n) own[n] = own_dashpots[n] = 0.0;
       for (std::size_t k = 0; k < bonds.size; k += width) {
         Lanes apart[Dim], squared(0.0);
+        for (Lanes& component : apart) component = 0.0;
         unrolled<width>([&](auto lane) __attribute__((always_inline)) {
           Vector<Dim> one = here - there[bonds.partner[k + lane] / Partners::Records::stride];
           if (list.crosses(i)) one = neighbours::minimum_image<Dim>(one, box);
