@@ -7,7 +7,8 @@ time goes, and how it depends on the skin and on the number of particles.
 Linux only. It takes some ten minutes and counts only on an idle machine. A ratio is taken within each round; printed are the median over
 the rounds and, in brackets, the least and the largest. Sweeps are timed as the yardstick does it, the best of 7. Steps are means over 40
 and more of them: processor time where one thread is at work, else time on the clock; how threads speed it up is all time on the clock.
-The yardstick is a program apart, of plain and of hand-vectorised loops; what refers to it is left out without it.
+The yardstick is a program apart, of plain and of hand-vectorised loops; what refers to it is left out without it. How much work several
+threads can do at the best is measured as well: by as many programs of one thread, which share nothing but the machine.
 """
 import argparse
 import csv
@@ -17,11 +18,12 @@ import re
 import shutil
 import statistics
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
 
-from processes import Failure, execute, table
+from processes import Failure, execute, put_table, table
 
 THREADS = (2, 4)
 SKINS = (50, 100, 150, 200, 300)  # thousandths of the support
@@ -111,6 +113,14 @@ def run_benchmarks(program, pattern, repetitions, least_seconds):
     return result, resident
 
 
+def run_at_once(program, count):
+    """Nanoseconds per particle and step of `count` programs of one thread each, the mean of them."""
+    benchmark = "whole_step/63/1/0"
+    with ThreadPoolExecutor(count) as pool:
+        found = pool.map(lambda _: run_benchmarks(program, f"{benchmark}/", 1, 1.0)[0][f"{benchmark}, ns/particle"], range(count))
+    return {f"{count} programs at once, ns/particle": statistics.mean(found)}
+
+
 def run_round(options):
     """All quantities once."""
     result = run_yardstick(options.yardstick) if options.yardstick else {}
@@ -119,6 +129,8 @@ def run_round(options):
     for side in SIDES[:1] + SIDES[2:] + ((LARGE_SIDE,) if options.large else ()):  # programs apart, for their memory
         found, resident = run_benchmarks(options.step, f"whole_step/{side}/", 1, 0.5)
         result |= found | {f"whole_step/{side}, resident bytes": resident}
+    for count in THREADS:
+        result |= run_at_once(options.step, count)
     return result | run_benchmarks(options.step, "parts_of_step|whole_step/(50|63)/", 1, 0.5)[0]
 
 
@@ -171,6 +183,8 @@ def bounds(of, compile_cost, has_yardstick):
     if has_yardstick:
         loop = of("yardstick, bond scalar, both sides")
         rows.append(Bound("bond sweep: faster than the yardstick's scalar loop", loop / of("bond_sweep_composed, ns/bond"), ">=", 2.0))
+    rows.append(Bound("1.1 million bonds: whole step over the bond sweep", of("bond_step, ns/bond") / of("bond_sweep_composed, ns/bond"),
+                      "<=", 1.3))
     large, small = (of(f"whole_step/{side}/1/0, processor ns/particle") for side in (SIDES[2], SIDES[0]))
     rows += [Bound(f"time per particle-step, {particles(SIDES[2])} particles over {particles(SIDES[0])}", large / small, "<=", 1.25),
              Bound(f"memory per particle, resident, {particles(SIDES[2])} particles", resident_per_particle(of), "<=", 600.0, " B"),
@@ -178,6 +192,16 @@ def bounds(of, compile_cost, has_yardstick):
              Bound("the same, memory", Measured([compile_cost["examples/dam_break.cpp"][1]]), "<=", 700.0, " MiB"),
              Bound("compile one law header alone", Measured([max(compile_cost[header][0] for header in LAW_HEADERS)]), "<=", 0.5, " s")]
     return table(["", "measured", "bound", "holds"], [row.row() for row in rows])
+
+
+def threads(of):
+    rows = []
+    for count in THREADS:
+        alone = of("whole_step/63/1/0, ns/particle")
+        speedup = alone / of(f"whole_step/63/{count}/0, ns/particle")
+        most = (alone / of(f"{count} programs at once, ns/particle")).times(count)
+        rows.append([str(count), speedup.text(2), most.text(2), (speedup / most).text(2)])
+    return table(["threads", "whole step faster than with 1", "work of as many programs of one thread at once", "share of it"], rows)
 
 
 def sweeps(of, has_yardstick):
@@ -244,17 +268,13 @@ def report(rounds, compile_cost, options, others):
         return Measured([values[key] for values in rounds])
 
     has_yardstick = options.yardstick is not None
-    return "\n\n".join([
+    conditions = (
         f"{options.repeats} rounds on {len(os.sched_getaffinity(0))} processors, of which others kept {others:.1f} busy meanwhile. Medians "
         "(least to largest); ratios are taken within a round. Sweeps: best of 7, as the yardstick. Steps: means over 40 or more, processor "
-        "time, but for threads. Compiling: the better of two."
-        + ("" if has_yardstick else " No yardstick was given."),
-        "## Bounds", bounds(of, compile_cost, has_yardstick),
-        "## Sweeps on one core", sweeps(of, has_yardstick),
-        "## Profile of a step", profile(of),
-        "## Skin", skins(of),
-        "## Growth", growth(of, options.large),
-        "## Compiling", compile_table(compile_cost)])
+        "time, but for threads. Compiling: the better of two." + ("" if has_yardstick else " No yardstick was given."))
+    return {"conditions": conditions, "bounds": bounds(of, compile_cost, has_yardstick), "threads": threads(of),
+            "sweeps": sweeps(of, has_yardstick), "profile": profile(of), "skin": skins(of), "growth": growth(of, options.large),
+            "compiling": compile_table(compile_cost)}
 
 
 # ---- Command line
@@ -267,7 +287,8 @@ def parse_arguments():
     parser.add_argument("--yardstick", help="the yardstick's program; without it its rows are left out")
     parser.add_argument("--repeats", type=int, default=5, help="rounds (5)")
     parser.add_argument("--large", action="store_true", help=f"also {particles(LARGE_SIDE)} particles: 3 GiB, 2 minutes more per round")
-    parser.add_argument("--output", type=Path, help="folder for report.md and all single values, runs.csv; without it nothing is written")
+    parser.add_argument("--output", type=Path, help="folder for all single values, runs.csv; without it they are not kept")
+    parser.add_argument("--page", type=Path, help="page that gets the tables, between its comments; without it they are printed only")
     options = parser.parse_args()
     if options.repeats < 1:
         parser.error("--repeats must be >= 1")
@@ -291,10 +312,11 @@ def main():
     others = (end[0] - start[0]) / (end[1] - start[1])
     print("compiling", file=sys.stderr)
     compile_cost = run_compile_cost(options.compile_cost)
-    text = report(rounds, compile_cost, options, others)
-    print(text)
+    for name, text in report(rounds, compile_cost, options, others).items():
+        print(f"{name}\n\n{text}\n")
+        if options.page is not None:
+            put_table(options.page, name, text)
     if options.output is not None:
-        (options.output / "report.md").write_text(text + "\n")
         with open(options.output / "runs.csv", "w", newline="") as file:
             writer = csv.writer(file)
             writer.writerow(["round", "quantity", "value"])

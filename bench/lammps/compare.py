@@ -2,7 +2,7 @@
 """Runs the scenes of this folder with LAMMPS and with dmp, in turn, and prints what each takes as a Markdown table.
 
     cmake --preset release && cmake --build --preset release --target lammps_scenes
-    bench/lammps/compare.py --lmp PATH/TO/lmp --dmp build/release/bench/lammps_scenes --output measured
+    bench/lammps/compare.py --lmp PATH/TO/lmp --dmp build/release/bench/lammps_scenes --page docs/performance.md
 
 lmp: any LAMMPS with the packages SPH and MOLECULE, compiled for this machine; for a fair comparison with the same flags as the scenes.
 A comparison counts only on an idle machine. The time is that between the start and the end of the timed steps, after a warm-up, output off:
@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parent.parent))
-from processes import Failure, execute
+from processes import Failure, execute, put_table
 
 FOLDER = Path(__file__).resolve().parent
 
@@ -163,7 +163,8 @@ def parse_arguments():
                         help="only this one; may be repeated")
     parser.add_argument("--clock", choices=["wall", "processor"], default="wall", help="processor: time of all threads together (wall)")
     parser.add_argument("--quick", action="store_true", help="small scenes, few steps: whether it works and agrees, not how fast it is")
-    parser.add_argument("--output", type=Path, help="folder for the table and all single runs; without it nothing is kept")
+    parser.add_argument("--output", type=Path, help="folder for all single runs; without it they are not kept")
+    parser.add_argument("--page", type=Path, help="page that gets the table, between its comments; without it it is printed only")
     options = parser.parse_args()
     if options.repeats < 1 or options.threads < 1:
         parser.error("--repeats and --threads must be >= 1")
@@ -191,8 +192,9 @@ def main():
             lines.append("| " + " | ".join(measure(case, options, Path(folder), log)) + " |")
     table = "\n".join(lines)
     print(table)
+    if options.page is not None:
+        put_table(options.page, "lammps", table)
     if options.output is not None:
-        (options.output / "table.md").write_text(table + "\n")
         with open(options.output / "runs.csv", "w", newline="") as file:
             csv.writer(file).writerows(log)
 
