@@ -80,55 +80,61 @@ void add_holds(const Law& law, double per_mass, const neighbours::BondList& list
   springs.make(g.first_ghost());
   if constexpr (with_dashpots) dashpots.make(g.first_ghost());
   const auto& there = partners.positions();
+  const auto add_one = [&]<bool Crosses>(std::size_t i, std::bool_constant<Crosses>) {
+    const auto bonds = list.of(i);
+    const Vector<Dim>& here = g.positions()[i];
+    Lanes own[numbers], own_dashpots[numbers];
+    for (int n = 0; n < numbers; ++n) own[n] = own_dashpots[n] = 0.0;
+    for (std::size_t k = 0; k < bonds.size; k += width) {
+      double numbers_apart[Dim][width];
+      unrolled<width>([&](auto lane) __attribute__((always_inline)) {
+        Vector<Dim> one = here - there[bonds.partner[k + lane] / Partners::Records::stride];
+        if constexpr (Crosses) one = neighbours::minimum_image<Dim>(one, box);
+        unrolled<Dim>([&](auto d) __attribute__((always_inline)) { numbers_apart[d][lane] = one[d]; });
+      });
+      Lanes apart[Dim], squared(0.0);
+      unrolled<Dim>([&](auto d) __attribute__((always_inline)) {
+        apart[d] = Lanes::load(numbers_apart[d]);
+        squared += apart[d] * apart[d];
+      });
+      bond::Remembering<bond::MovingStretch<Lanes>, Lanes> seen{};
+      seen.length = sqrt(squared);
+      seen.rest_length = Lanes::load(bonds.rest_length + k);
+      if constexpr (bond::HasMemory<Law>) seen.memory = Lanes::load(list.memories_of(i) + k);
+      const auto is_bond = seen.rest_length >= 0.0, has_length = squared > 0.0;
+      const Lanes weight = select(is_bond, Lanes::load(bonds.weight + k * bonds.weight_step), 0.0);
+      const Lanes inverse = select(has_length, 1.0 / squared, 0.0), tension = law.tension(seen);
+      const Lanes across = select(is_bond && has_length, per_mass * weight * max(tension, 0.0) * (seen.length * inverse), 0.0);
+      const auto add = [&](double along_all, Lanes across_all, Holds<Dim>& holds, Lanes* sums) __attribute__((always_inline)) {
+        const Lanes along = along_all * weight, in_any = select(has_length, across_all, along), per_square = (along - across_all) * inverse;
+        Lanes terms[numbers];
+        unrolled<numbers>([&](auto n) __attribute__((always_inline)) {
+          constexpr auto place = Holds<Dim>::places[n];
+          terms[n] = per_square * apart[place.first] * apart[place.second];
+          if constexpr (place.first == place.second) terms[n] += in_any;
+          sums[n] += terms[n];
+        });
+        if constexpr (std::is_same_v<G, Partners>) {
+          std::uint32_t row[width];
+          unrolled<width>([&](auto lane) __attribute__((always_inline)) { row[lane] = bonds.reaction[k + lane] / G::Sums::stride; });
+          add_transposed<numbers>(holds.data(), stride, row, terms);
+        }
+      };
+      add(stiffness, across, springs, own);
+      if constexpr (with_dashpots) add(damping, 0.0, dashpots, own_dashpots);
+    }
+    const auto add_own = [&](const Lanes* sums, Holds<Dim>& holds) {
+      double total[numbers];
+      sum_transposed<numbers>(sums, total);
+      for (std::size_t n = 0; n < numbers; ++n) holds.data()[i * stride + n] += total[n];
+    };
+    add_own(own, springs);
+    if constexpr (with_dashpots) add_own(own_dashpots, dashpots);
+  };
   for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
     for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
-      const auto bonds = list.of(i);
-      const Vector<Dim>& here = g.positions()[i];
-      Lanes own[numbers], own_dashpots[numbers];
-      for (int n = 0; n < numbers; ++n) own[n] = own_dashpots[n] = 0.0;
-      for (std::size_t k = 0; k < bonds.size; k += width) {
-        Lanes apart[Dim], squared(0.0);
-        for (Lanes& component : apart) component = 0.0;
-        unrolled<width>([&](auto lane) __attribute__((always_inline)) {
-          Vector<Dim> one = here - there[bonds.partner[k + lane] / Partners::Records::stride];
-          if (list.crosses(i)) one = neighbours::minimum_image<Dim>(one, box);
-          unrolled<Dim>([&](auto d) __attribute__((always_inline)) { apart[d].raw[static_cast<int>(lane)] = one[d]; });
-        });
-        unrolled<Dim>([&](auto d) __attribute__((always_inline)) { squared += apart[d] * apart[d]; });
-        bond::Remembering<bond::MovingStretch<Lanes>, Lanes> seen{};
-        seen.length = sqrt(squared);
-        seen.rest_length = Lanes::load(bonds.rest_length + k);
-        if constexpr (bond::HasMemory<Law>) seen.memory = Lanes::load(list.memories_of(i) + k);
-        const auto is_bond = seen.rest_length >= 0.0, has_length = squared > 0.0;
-        const Lanes weight = select(is_bond, Lanes::load(bonds.weight + k * bonds.weight_step), 0.0);
-        const Lanes inverse = select(has_length, 1.0 / squared, 0.0);
-        const Lanes tension = law.tension(seen);
-        const Lanes across = select(is_bond && has_length, per_mass * weight * max(tension, 0.0) / seen.length, 0.0);
-        const auto add = [&](double along_all, Lanes across_all, Holds<Dim>& holds, Lanes* sums) __attribute__((always_inline)) {
-          const Lanes along = along_all * weight, in_any = select(has_length, across_all, along), per_square = (along - across_all) * inverse;
-          Lanes terms[numbers];
-          unrolled<numbers>([&](auto n) __attribute__((always_inline)) {
-            constexpr auto place = Holds<Dim>::places[n];
-            terms[n] = per_square * apart[place.first] * apart[place.second];
-            if constexpr (place.first == place.second) terms[n] += in_any;
-            sums[n] += terms[n];
-          });
-          if constexpr (std::is_same_v<G, Partners>) {
-            std::uint32_t row[width];
-            unrolled<width>([&](auto lane) __attribute__((always_inline)) { row[lane] = bonds.reaction[k + lane] / G::Sums::stride; });
-            add_transposed<numbers>(holds.data(), stride, row, terms);
-          }
-        };
-        add(stiffness, across, springs, own);
-        if constexpr (with_dashpots) add(damping, 0.0, dashpots, own_dashpots);
-      }
-      const auto add_own = [&](const Lanes* sums, Holds<Dim>& holds) {
-        double total[numbers];
-        sum_transposed<numbers>(sums, total);
-        for (std::size_t n = 0; n < numbers; ++n) holds.data()[i * stride + n] += total[n];
-      };
-      add_own(own, springs);
-      if constexpr (with_dashpots) add_own(own_dashpots, dashpots);
+      if (list.crosses(i)) add_one(i, std::true_type{});
+      else add_one(i, std::false_type{});
     }
   });
 }
