@@ -9,14 +9,13 @@ have more.
 Some minutes; the times count on an idle machine. `lean.py check`, the test symbols_examples, looks at the symbols of programs without
 running them: what they hold is then what docs/lean.md describes.
 """
-import argparse
 import re
 import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import Failure, execute, put_table, table
+from processes import Failure, add_commands, execute, new_parser, put_table, run_script, table
 
 
 # ---- What there is, and what an example names of it
@@ -68,7 +67,7 @@ def absent_names(source, laws):
     absent = set(laws) - named - parts
     for item, names in (("interaction", ("simulation::Interaction", "neighbours::PairList", "neighbours::Ghosts")),
                         ("summed", ("simulation::Summed",)), ("bonds", ("simulation::Bonds", "neighbours::BondList"))):
-        if not re.search(rf"\b{item}<", source):
+        if not re.search(rf"\b(?:\w+_)?{item}<", source):  # also substepped_bonds<
             absent.update(names)
     return absent
 
@@ -135,6 +134,7 @@ def absent_fields(scenes, root):
 
 
 def check(options):
+    """look for absent names in the symbols of programs"""
     laws = catalogue(options.root)
     page = (options.root / "docs/lean.md").read_text()
     for program in options.programs:
@@ -149,6 +149,7 @@ def check(options):
 
 
 def write(options):
+    """run all and write docs/lean.md"""
     root, laws = options.root, catalogue(options.root)
     held, absence, descriptions = [], [], []
     objects = {path.name.split(".")[0]: path for path in options.objects}
@@ -179,22 +180,13 @@ def write(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(required=True)
-    writer = commands.add_parser("write", help="run all and write docs/lean.md")
-    writer.add_argument("--objects", type=Path, nargs="+", required=True, help="the same examples, compiled without optimisation")
-    writer.add_argument("--lean", required=True, help="the program lean")
-    writer.set_defaults(function=write)
-    checker = commands.add_parser("check", help="look for absent names in the symbols of programs")
-    checker.set_defaults(function=check)
-    for command in (writer, checker):
-        command.add_argument("--root", type=Path, required=True, help="folder of the repository")
+    parser = new_parser(__doc__)
+    commands = add_commands(parser, write=write, check=check)
+    for command in commands.values():
         command.add_argument("--programs", type=Path, nargs="+", required=True, help="the examples")
-    options = parser.parse_args()
-    try:
-        options.function(options)
-    except Failure as failure:
-        sys.exit(f"lean: {failure}")
+    commands["write"].add_argument("--objects", type=Path, nargs="+", required=True, help="the same, compiled without optimisation")
+    commands["write"].add_argument("--lean", required=True, help="the program lean")
+    run_script(parser)
 
 
 if __name__ == "__main__":

@@ -8,16 +8,14 @@ The errors are those of the examples, against exact solutions or published ones,
 processor time of the steps on one thread, the least of up to three runs: other programs add to it, none takes from it. The order of
 convergence is the slope of log error over log N, fitted by least squares, with its standard error.
 """
-import argparse
 import csv
 import math
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from processes import Failure, execute, put_table, result_of, table
+from processes import draw, execute, new_parser, put_table, require_gnuplot, result_of, run_script, table
 
 RUNS, ENOUGH = 3, 2.0  # a point is run again until it has been run so often, or for so long [s]
 
@@ -191,7 +189,7 @@ def write_csv(curves, path):
                                  *measured, "" if before is None else f"{before:.2f}", *order])
 
 
-def draw(curves, names, path):
+def draw_curves(curves, names, path):
     """Log-log, one panel per case and kind, one curve per choice."""
     blocks, panels = [], []
     for case in (case for case in CASES if case.name in names):
@@ -207,9 +205,10 @@ def draw(curves, names, path):
     columns = min(3, len(panels))
     rows = math.ceil(len(panels) / columns)
     script = (f"set terminal pngcairo size {480 * columns},{400 * rows} font ',11'\nset output '{path}'\n" + "\n".join(blocks) +
-              "\nset logscale\nset format x '10^{%T}'\nset format y '%.0e'\nset grid\nset key bottom left\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.25\n"
+              "\nset logscale\nset format x '10^{%T}'\nset format y '%.0e'\nset grid\nset key bottom left\n"
+              "set offsets graph 0.05, graph 0.05, graph 0.05, graph 0.25\n"
               f"set xlabel 'run time, one thread [s]'\nset multiplot layout {rows},{columns}\n" + "\n".join(panels) + "\nunset multiplot\n")
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    draw(script)
 
 
 def figure_path(docs, name):
@@ -226,21 +225,22 @@ def table_of(curves, case):
     return table(["choice", *map(case.heading, case.values), "order"], own[:1] + others)
 
 
+def write(options):
+    require_gnuplot()
+    curves = Runs(options.examples, options.variants).curves()
+    for case in CASES:
+        put_table(options.docs / "accuracy.md", case.name, table_of(curves, case))
+    write_csv(curves, options.docs / "accuracy.csv")
+    for name, cases in FIGURES.items():
+        draw_curves(curves, cases, figure_path(options.docs, name))
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = new_parser(__doc__)
     parser.add_argument("--examples", type=Path, required=True, help="folder of the examples")
     parser.add_argument("--variants", type=Path, required=True, help="folder of the programs work_precision_EXAMPLE_CHOICE")
     parser.add_argument("--docs", type=Path, required=True, help="folder of accuracy.md")
-    options = parser.parse_args()
-    try:
-        curves = Runs(options.examples, options.variants).curves()
-        for case in CASES:
-            put_table(options.docs / "accuracy.md", case.name, table_of(curves, case))
-        write_csv(curves, options.docs / "accuracy.csv")
-        for name, cases in FIGURES.items():
-            draw(curves, cases, figure_path(options.docs, name))
-    except Failure as failure:
-        sys.exit(f"work_precision: {failure}")
+    run_script(parser, write)
 
 
 if __name__ == "__main__":
