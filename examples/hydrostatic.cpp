@@ -1,4 +1,4 @@
-// Does a liquid in an open tank come to rest, and under the right pressure? (8 s; 2 s with --quick.) Two starts: with the hydrostatic
+// Does a liquid in an open tank come to rest, and under the right pressure? (4 s; 1 s with --quick.) Two starts: with the hydrostatic
 // density, and with a uniform one, from which the liquid must sink until the pressure carries it.
 // Gravity, walls of particles that stay in place while their density answers to the liquid, a free surface: no law treats any of them
 // specially. J. J. Monaghan, J. Comput. Phys. 110 (1994) 399-406, doi:10.1006/jcph.1994.1034; walls: A. J. C. Crespo,
