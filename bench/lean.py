@@ -120,6 +120,29 @@ class Scene:
                 sweeps + "".join(f" and one for {name}" for name in summed)]
 
 
+# Rows of the program lean, by what it is that an example has if its source matches; the rest is in place of something else.
+MATTERS = {
+    "liquid": {"density diffusion": r"\bdiffusion::(?!None)", "energy equation": r"\bsph::Compressible\b|\bthermal::",
+               "heat conduction": r"\bsph::HeatConduction\b", "viscosity of each particle, mu(T)": r"\brheology::(?!Constant\b)",
+               "viscosity of each particle, mu(shear rate), a sum over neighbours": r"\bsummed<",
+               "tensile correction": r"\btensile::(?!None)", "bonds: springs, 6 to each particle": r"\b(?:\w+_)?bonds<"},
+    "solid of springs": {"neighbour lists and repulsion between beads": r"\binteraction<",
+                         "pressure and viscosity of a liquid: density, neighbour lists": r"\beos::",
+                         "bonds with velocity: spring and dashpot": r"\bbond::KelvinVoigt\b",
+                         "bonds with memory: standard linear solid": r"\bbond::StandardLinearSolid\b",
+                         "bonds that break": r"\bbond::Breaking\b"},
+    "heat at rest": {"flow: motion, pressure, viscosity": r"\bforcing::|\bsph::(?:WeaklyC|C)ompressible\b"},
+}
+
+
+def left_out(source, costs):
+    """What an example has not, and over that of its kind of scene the time of a step which has it: as text."""
+    flows = re.search(r"\bsph::(?:WeaklyC|C)ompressible\b", source)
+    kind = "liquid" if flows else "heat at rest" if re.search(r"\bsph::HeatConduction\b", source) else "solid of springs"
+    ratios = {what: ratio for scene, what, *_, ratio, _, _ in costs if scene == kind}
+    return [kind, "; ".join(f"{what}: {ratios[what]}" for what, pattern in MATTERS[kind].items() if not re.search(pattern, source))]
+
+
 def scenes_of(text):
     return [Scene(found) for found in re.findall(r"^groups\n.*?bytes per particle$", text, re.MULTILINE | re.DOTALL)]
 
@@ -151,7 +174,8 @@ def check(options):
 def write(options):
     """run all and write docs/lean.md"""
     root, laws = options.root, catalogue(options.root)
-    held, absence, descriptions = [], [], []
+    costs = [line.split("; ") for line in execute([options.lean]).text.splitlines()]
+    held, absence, leaves, descriptions = [], [], [], []
     objects = {path.name.split(".")[0]: path for path in options.objects}
     with tempfile.TemporaryDirectory() as folder:
         for program in options.programs:
@@ -166,16 +190,18 @@ def write(options):
             absence.append([example, names or "none", f"{len(absent)}", *map(str, numbers), "none"])
             held += dict.fromkeys((example, *scene.row()) for scene in scenes)  # each once
             if scenes:
+                leaves.append([example, *left_out(source, costs)])
                 descriptions.append(f"### {example}\n\n```\n" + "\n\n".join(dict.fromkeys(scene.text for scene in scenes)) + "\n```")
-    costs = [line.split("; ") for line in execute([options.lean]).text.splitlines()]
     page = root / "docs/lean.md"
     put_table(page, "held", table(["example", "bytes of columns + record, by group", "bytes per particle, all", "pair lists", "bonds",
                                    "passes", "sweeps"], held))
     put_table(page, "absent", table(["example", "laws that its source names", "absent names", "symbols", "symbols, unoptimised",
                                      "absent names found"], absence))
-    put_table(page, "costs", table(["the scene, and", "bytes of columns", "of the record", "of all, per particle", "ns per particle-step",
+    put_table(page, "costs", table(["scene", "and", "bytes of columns", "of the record", "of all, per particle", "ns per particle-step",
                                     "time over that of the scene", "(least to largest)"],
-                                   [[*cost[:6], f"{cost[6]} to {cost[7]}"] for cost in costs]))
+                                   [[*cost[:7], f"{cost[7]} to {cost[8]}"] for cost in costs]))
+    put_table(page, "left out", table(["example", "nearest to the scene", "left out, and the time of a step with it over that without"],
+                                      leaves))
     put_table(page, "descriptions", "\n\n".join(descriptions))
 
 

@@ -184,13 +184,14 @@ lattice_spring::Body<3> ordered(int beads_in_radius) {  // the sheet's orientati
 int run(const example::Options& options) {
   const io::OutputFolder folder(options.output);
   example::Result result{.example = "viscoelastic_sphere", .test_case = "A8a, A8b, A8c, A9"};
-  const bool quick = options.size == example::Size::quick, full = options.size == example::Size::full;
-  result.resolution = std::string("R = ") + (full ? "16" : "10") + " spacings" + (quick ? "" : "; a network of 5,921 beads");
-  auto body = ordered(full ? 16 : 10);
+  const bool full = options.size == example::Size::full, one = options.size == example::Size::quick || options.resolution > 0;
+  const int beads_in_radius = options.resolutions({10}, {10}, {16}).front();
+  result.resolution = "R = " + std::to_string(beads_in_radius) + " spacings" + (one ? "" : "; a network of 5,921 beads");
+  auto body = ordered(beads_in_radius);
   lattice_spring::measure_rest_lengths<3>(body.bonds, body.points.positions);
   const auto elastic_small = elastic_forces(body, small, 200.0, result);
   kelvin_voigt("lattice", body, small, elastic_small, 10.0, 0.02, folder, result);
-  if (!quick) {
+  if (!one) {
     kelvin_voigt("lattice", body, small, elastic_small, 2.0, 0.06, folder, result);
     const auto elastic_large = elastic_forces(body, large, 200.0, result);
     kelvin_voigt("lattice", body, large, elastic_large, 10.0, 0.02, folder, result);
@@ -214,5 +215,7 @@ int run(const example::Options& options) {
 int main(int argc, char** argv) {
   return example::guarded("viscoelastic_sphere", run,
                           example::options(argc, argv, "viscoelastic_sphere",
-                                           "Balls of viscoelastic bonds between plates, loaded and held, without inertia (A8, A9)."));
+                                           "Balls of viscoelastic bonds between plates, loaded and held, without inertia (A8, A9). Resolution: R "
+                                           "in spacings, of Kelvin-Voigt bonds on a ramp of ten relaxation times alone.",
+                                           {.least_resolution = 6}));
 }
