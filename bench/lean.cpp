@@ -1,5 +1,5 @@
-// What is left out of a scene, and what it would cost. Three scenes in 3D, alone and with one thing more: a liquid (weakly compressible SPH,
-// Wendland C2, support h = 2.6 spacings, Morris' viscosity, Tait's equation, a row of vortices), a solid of springs (six to each bead), and
+// What is left out of a scene, and what it would cost. Three scenes in 3D, alone and with one thing more: a liquid (weakly compressible
+// SPH, Wendland C2, support h = 2.6 spacings, Morris' viscosity, Tait's equation, a row of vortices), a solid of springs (six to each bead), and
 // heat in a body at rest. Periodic box, 46 656 particles, one thread. Each is timed in turns with the scene alone: processor time of 30
 // steps, seven times; the ratio is the median of those of neighbouring turns.
 #include <algorithm>
@@ -96,7 +96,8 @@ double median(std::array<double, turns> values) {
   return values[turns / 2];
 }
 
-/// One line: in which scene, what, bytes of columns, of the record and of all per particle; time per particle and step, and over that of the other scene.
+/// One line: in which scene, what, bytes of columns, of the record and of all per particle; time per particle and step, and over that of
+/// the other scene.
 template <class Scene, class Lean>
 void compare(const std::string& in, const std::string& what, Scene scene, Lean& lean) {
   using Group = std::remove_cvref_t<decltype(scene.template group<Water>())>;
