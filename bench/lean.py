@@ -43,10 +43,11 @@ def catalogue(root):
 
 
 def source_of(example, root):
-    """The text of an example and of the headers of its own that it includes."""
+    """The text of an example and of the headers of its own that it includes, without comments."""
     text = (root / "examples" / f"{example}.cpp").read_text()
     headers = re.findall(r'^#include "(support/\w+\.hpp)"', text, re.MULTILINE)
-    return text + "".join((root / "examples" / header).read_text() for header in headers)
+    text += "".join((root / "examples" / header).read_text() for header in headers)
+    return re.sub(r"(^|\s)//.*$", "", text, flags=re.MULTILINE)
 
 
 def named_laws(source, laws):
