@@ -185,7 +185,7 @@ class Runs:
 def write_csv(curves, path):
     with open(path, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["case", "kind", "choice", "N (chain, membrane: bound/dt)", "particles", "steps", "particle-steps", "error", "run time [s]",
+        writer.writerow(["case", "kind", "choice", "N (or bound/dt)", "particles", "steps", "particle-steps", "error", "run time [s]",
                          "particle-steps/s", "order to the point before", "order of the curve", "its standard error"])
         for curve in curves:
             order = [f"{number:.3f}" for number in curve.order() or ()] or ["", ""]
