@@ -183,7 +183,7 @@ void along_centres(const Viscosity& viscosity, double sound_speed, const std::st
   const auto parabola = [](double y) { return 4.0 * top_speed * y / gap * (1.0 - y / gap); };
   const auto error = example::profile_error(scene.template group<Water>(), parabola);
   result.error("VISC-4, " + name + ": scale of u less " + to_text(scale), error.scale - scale, margin,
-               "the law's own error on this lattice");
+               "independent runs: the law's own error on this lattice");
   result.error("VISC-4, " + name + ": shape of u", error.shape, shape, "parabola");
   write_profile(folder, "VISC-4_" + name, scene.template group<Water>(), parabola);
   result.add(report);
