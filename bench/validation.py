@@ -25,6 +25,7 @@ TOLERANCE = 0.01
 TOLERANCE_OF_BOUND, TOLERANCE_OF_CHAOTIC = 0.001, 0.25
 ROUNDING = 1e-9
 DOI = r"doi:(10\.[^\s,;()]*(?:\([^\s()]*\)[^\s,;()]*)*[^\s,;().:])"  # without the full stop of a sentence
+DURATIONS = r"\(\d+ s; \d+ s with --quick"  # in the first comment of an example
 CHAOTIC = (("dam_break", "normal"), ("membrane", "normal"))
 COLUMNS = ("example", "size", "case", "resolution", "particles", "steps", "run time [s]", "bytes per particle", "step bound by",
            "error", "value", "bound", "reference")
@@ -96,20 +97,21 @@ def put_durations(source, usual, quick):
     def rounded(seconds):
         return max(1, round(seconds)) if seconds < 20 else 5 * round(seconds / 5)
 
-    changed, count = re.subn(r"\(\d+ s; \d+ s with --quick", f"({rounded(usual)} s; {rounded(quick)} s with --quick", source.read_text())
-    if count != 1:
-        raise Failure(f"{source} needs its run times once, as in (60 s; 15 s with --quick)")
-    source.write_text(changed)
+    source.write_text(re.sub(DURATIONS, f"({rounded(usual)} s; {rounded(quick)} s with --quick", source.read_text()))
 
 
 def write(options):
     """run all examples and write docs/validation.csv and docs/validation.md"""
+    sources = {program.name: options.root / f"examples/{program.name}.cpp" for program in options.programs}
+    for source in sources.values():
+        if len(re.findall(DURATIONS, source.read_text())) != 1:
+            raise Failure(f"{source} needs its run times once, as in (60 s; 15 s with --quick)")
     with tempfile.TemporaryDirectory() as folder:
         results = [run(program, size, folder) for program in options.programs for size in SIZES]
     seconds = {(result["example"], result["size"]): result["seconds"] for result in results}
     usual = [result for result in results if result["size"] == "normal"]
-    for program in options.programs:
-        put_durations(options.root / f"examples/{program.name}.cpp", seconds[program.name, "normal"], seconds[program.name, "quick"])
+    for name, source in sources.items():
+        put_durations(source, seconds[name, "normal"], seconds[name, "quick"])
     page = options.root / "docs/validation.md"
     put_table(page, "overview", overview(usual, options.programs))
     put_table(page, "figures", figures(usual, options.root / "examples"))
