@@ -198,7 +198,18 @@ int run(const example::Options& options) {
     }
     two_half_spaces<HarmonicMean>(rows, folder, result, bounds->spaces_harmonic);
   }
-  if (options.resolution == 0) one_phase(folder, result);
+  if (options.resolution == 0) {
+    one_phase(folder, result);
+    const auto curves = [](const std::string& name) {
+      return "plot '" + name + "_harmonic_20.csv' using 1:3 skip 1 with points pt 6 lc 'black' title 'exact', '' using 1:2 skip 1 with "
+             "points pt 7 ps 0.4 title 'harmonic mean', '" + name + "_arithmetic_20.csv' using 1:2 skip 1 with points pt 7 ps 0.4 "
+             "title 'arithmetic mean'\n";
+    };
+    io::plot(folder, "heat_conduction",
+             "set datafile separator ','\nset multiplot layout 1,2\nset xlabel 'x [m]'\nset ylabel 'T [K]'\n"
+             "set title 'two slabs, N = 20'\n" + curves("slabs") + "set title 'two half-spaces, N = 20'\n" + curves("half_spaces") +
+                 "unset multiplot");
+  }
   return result.print(folder);
 }
 
