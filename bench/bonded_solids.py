@@ -8,17 +8,15 @@ Three things: where the steps of each bond law blow up (bond_limits.cpp), the er
 and that of the bulk modulus of random networks (amorphous_solid), both over their size. Errors do not depend on the machine. Run times are
 seconds of one processor in the program, which count on an idle machine only; some five minutes in all.
 """
-import argparse
 import csv
 import math
 import statistics
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import Failure, execute, put_table, result_of
+from processes import draw, execute, new_parser, put_table, require_gnuplot, result_of, run_script
 
 BALLS = (8, 12, 16, 24, 32)    # R/l
 CUBES = (6, 8, 10, 14)        # edges [a0]
@@ -107,7 +105,7 @@ def write_csv(curves, path):
             writer.writerow([p.curve, p.size, p.beads, f"{p.error:.4g}", scatter, f"{p.seconds:.3g}", order])
 
 
-def draw(ball, nets, path):
+def draw_errors(ball, nets, path):
     blocks = [f"${name} << EOD\n" + "\n".join(f"{p.seconds} {p.error}" for p in points) + "\nEOD" for name, points in
               [("ball", ball)] + [(f"net{n}", points) for n, points in enumerate(nets)]]
     curves = ", ".join(f"$net{n} with linespoints pt {n + 4} title '{variant}'" for n, variant in enumerate(VARIANTS))
@@ -116,27 +114,28 @@ def draw(ball, nets, path):
               "set multiplot layout 1,2\nset title 'Young modulus of a ball of lattice between plates (A4)'\n"
               "plot $ball with linespoints pt 4 title 'R/l = " + ", ".join(map(str, BALLS)) +
               "'\nset title 'bulk modulus of random networks (B4 to B7)'\nset key bottom left\nplot " + curves + "\nunset multiplot\n")
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    draw(script)
+
+
+def write(options):
+    require_gnuplot()
+    page = options.docs / "bonded-solids.md"
+    put_table(page, "limits", limits(options.bond_limits))
+    with tempfile.TemporaryDirectory() as folder:
+        ball = balls(options.elastic_sphere, folder)
+        nets = networks(options.amorphous_solid, folder)
+    put_table(page, "ball", ball_table(ball))
+    put_table(page, "networks", network_table(nets))
+    write_csv([ball, *nets], options.docs / "bonded-solids.csv")
+    draw_errors(ball, nets, options.docs / "bonded-solids.png")
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = new_parser(__doc__)
     parser.add_argument("--docs", type=Path, required=True, help="folder of bonded-solids.md")
     for program in ("bond-limits", "elastic-sphere", "amorphous-solid"):
         parser.add_argument(f"--{program}", type=Path, required=True, help="the program")
-    options = parser.parse_args()
-    page = options.docs / "bonded-solids.md"
-    try:
-        put_table(page, "limits", limits(options.bond_limits))
-        with tempfile.TemporaryDirectory() as folder:
-            ball = balls(options.elastic_sphere, folder)
-            nets = networks(options.amorphous_solid, folder)
-        put_table(page, "ball", ball_table(ball))
-        put_table(page, "networks", network_table(nets))
-        write_csv([ball, *nets], options.docs / "bonded-solids.csv")
-        draw(ball, nets, options.docs / "bonded-solids.png")
-    except Failure as failure:
-        sys.exit(f"bonded_solids: {failure}")
+    run_script(parser, write)
 
 
 if __name__ == "__main__":

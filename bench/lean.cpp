@@ -1,6 +1,7 @@
-// What is left out of a scene, and what it would cost: 3D weakly compressible SPH (Wendland C2, support h = 2.6 spacings, Morris'
-// viscosity, Tait's equation, periodic box, a row of vortices), alone and with one thing more. 46 656 particles, one thread. Each is timed
-// in turns with the scene alone: processor time of 30 steps, seven times; the ratio is the median of those of neighbouring turns.
+// What is left out of a scene, and what it would cost. Three scenes in 3D, alone and with one thing more: a liquid (weakly compressible
+// SPH, Wendland C2, support h = 2.6 spacings, Morris' viscosity, Tait's equation, a row of vortices), a solid of springs (six to each bead), and
+// heat in a body at rest. Periodic box, 46 656 particles, one thread. Each is timed in turns with the scene alone: processor time of 30
+// steps, seven times; the ratio is the median of those of neighbouring turns.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,26 +33,36 @@ constexpr sph::WeaklyCompressible<Kernel, viscosity::Morris<>> flow{.kernel = we
 constexpr eos::Tait tait{.rest_density = 1.0, .sound_speed_0 = sound_speed};
 constexpr rheology::Constant newtonian{.dynamic_viscosity = mu};
 
-/// A fluid of what is given, some steps on: first lists, first forces; the lattice is gone.
-template <class... Item>
-auto fluid(const Item&... item) {
+/// A body of what is given, with vortices of a highest `speed`, some steps on: first lists, first forces; in a liquid the lattice is gone.
+template <class Mobility, class... Item>
+auto body(double speed, const Mobility& mobility, const Item&... item) {
   geometry::Points<3> points{.positions = bench::jittered_lattice(side), .spacing = 1.0, .volume = 1.0};
   const double size = side;
   auto result = scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<3>{.lower = {0.0, 0.0, 0.0}, .upper = {size, size, size}, .periodic = {true, true, true}},
-      group<Water>("water", particles::Mobile{}, std::move(points), 1.0), item...);
+      group<Water>("water", mobility, std::move(points), 1.0), item...);
   auto& water = result.template group<Water>();
   using Columns = typename std::remove_cvref_t<decltype(water)>::Layout::columns;
-  water.template set<field::Density>([](const auto&) { return 1.0; });
-  water.template set<field::Velocity>([k = 2.0 * std::numbers::pi / size](const Vector<3>& x) {
-    return Vector<3>(std::sin(k * x[0]) * std::cos(k * x[1]), -std::cos(k * x[0]) * std::sin(k * x[1]), 0.0);
-  });
+  if constexpr (contains<field::Density, Columns>) water.template set<field::Density>([](const auto&) { return 1.0; });
+  if constexpr (contains<field::Velocity, Columns>)
+    water.template set<field::Velocity>([speed, k = 2.0 * std::numbers::pi / size](const Vector<3>& x) {
+      return Vector<3>(speed * std::sin(k * x[0]) * std::cos(k * x[1]), -speed * std::cos(k * x[0]) * std::sin(k * x[1]), 0.0);
+    });
   const auto warm = [](const Vector<3>& x) { return temperature * (1.0 + 0.01 * x[0] / side); };
   if constexpr (contains<field::Temperature, Columns>) water.template set<field::Temperature>(warm);
   if constexpr (contains<field::SpecificEnergy, Columns>)
     water.template set<field::SpecificEnergy>([&warm](const Vector<3>& x) { return specific_heat * warm(x); });
   result.run({.until = 20.0 * time_step, .time_step = time_step});
   return result;
+}
+template <class... Item>
+auto fluid(const Item&... item) {
+  return body(1.0, particles::Mobile{}, item...);
+}
+/// Its beads start at rest but for a small speed.
+template <class... Item>
+auto solid(const Item&... item) {
+  return body(0.001, particles::Mobile{}, item...);
 }
 template <class... PairLaw>
 auto pairs(const PairLaw&... law) {
@@ -85,9 +96,10 @@ double median(std::array<double, turns> values) {
   return values[turns / 2];
 }
 
-/// One line: what, bytes of columns, of the record and of all per particle; time per particle and step, and over that of the other scene.
+/// One line: in which scene, what, bytes of columns, of the record and of all per particle; time per particle and step, and over that of
+/// the other scene.
 template <class Scene, class Lean>
-void compare(const std::string& what, Scene scene, Lean& lean) {
+void compare(const std::string& in, const std::string& what, Scene scene, Lean& lean) {
   using Group = std::remove_cvref_t<decltype(scene.template group<Water>())>;
   std::array<double, turns> time{}, ratio{};
   for (std::size_t turn = 0; turn < turns; ++turn) {
@@ -98,17 +110,14 @@ void compare(const std::string& what, Scene scene, Lean& lean) {
   const auto [least, largest] = std::minmax_element(ratio.begin(), ratio.end());
   const auto columns = static_cast<std::size_t>(Group::Columns::bytes_per_particle);
   const auto record = static_cast<std::size_t>(Group::Records::bytes_per_particle());
-  std::printf("%s; %zu; %zu; %.0f; %.0f; %.2f; %.2f; %.2f\n", what.c_str(), columns, record, bytes_per_particle(scene), median(time),
-              median(ratio), *least, *largest);
+  std::printf("%s; %s; %zu; %zu; %.0f; %.0f; %.2f; %.2f; %.2f\n", in.c_str(), what.c_str(), columns, record, bytes_per_particle(scene),
+              median(time), median(ratio), *least, *largest);
   std::fflush(stdout);
 }
 
-}  // namespace
-
-int main() {
-  use_threads(1);
+void liquid_and_more() {
   auto lean = fluid(pairs(flow), of(tait, newtonian));
-  const auto add = [&lean](const std::string& what, auto&& scene) { compare(what, std::move(scene), lean); };
+  const auto add = [&lean](const std::string& what, auto&& scene) { compare("liquid", what, std::move(scene), lean); };
   add("nothing: the scene twice", fluid(pairs(flow), of(tait, newtonian)));
   add("density diffusion", fluid(pairs(sph::WeaklyCompressible<Kernel, viscosity::Morris<>, diffusion::MolteniColagrossi>{
                                      .kernel = wendland, .diffusion = {.sound_speed = sound_speed}}),
@@ -145,4 +154,39 @@ int main() {
   add("bonds with memory: standard linear solid",
       fluid(pairs(flow), of(tait, newtonian),
             springs(bond::StandardLinearSolid{.stiffness = 1.0, .branch_stiffness = 1.0, .branch_damping = 0.1})));
+}
+
+void solid_and_more() {
+  const bond::Harmonic spring{.stiffness = 1.0};
+  auto lean = solid(springs(spring));
+  const auto add = [&lean](const std::string& what, auto&& scene) { compare("solid of springs", what, std::move(scene), lean); };
+  add("nothing: the scene twice", solid(springs(spring)));
+  add("neighbour lists and repulsion between beads",
+      solid(springs(spring), pairs(potential::LennardJones{.energy_scale = 1e-3, .diameter = 0.5, .cutoff = 1.25})));
+  add("pressure and viscosity of a liquid: density, neighbour lists", solid(springs(spring), pairs(flow), of(tait, newtonian)));
+  add("bonds with velocity: spring and dashpot", solid(springs(bond::KelvinVoigt{.stiffness = 1.0, .damping = 0.1})));
+  add("bonds with memory: standard linear solid",
+      solid(springs(bond::StandardLinearSolid{.stiffness = 1.0, .branch_stiffness = 1.0, .branch_damping = 0.1})));
+  add("bonds that break", solid(springs(bond::Breaking{spring, bond::LargestStrain{.strain = 0.9}})));
+}
+
+void heat_and_more() {
+  const sph::HeatConduction<Kernel> conduction{.kernel = wendland};
+  const thermal::Linear caloric{.specific_heat_capacity = specific_heat};
+  const thermal::Conductivity conductivity{.thermal_conductivity = 0.1 * specific_heat};
+  const eos::ConstantDensity constant{.density = 1.0};
+  const auto at_rest = [&] { return body(0.0, particles::Stationary{}, pairs(conduction), of(constant, caloric, conductivity)); };
+  auto lean = at_rest();
+  compare("heat at rest", "nothing: the scene twice", at_rest(), lean);
+  compare("heat at rest", "flow: motion, pressure, viscosity",
+          fluid(pairs(flow, conduction), of(tait, newtonian, caloric, conductivity)), lean);
+}
+
+}  // namespace
+
+int main() {
+  use_threads(1);
+  liquid_and_more();
+  solid_and_more();
+  heat_and_more();
 }

@@ -9,14 +9,13 @@ have more.
 Some minutes; the times count on an idle machine. `lean.py check`, the test symbols_examples, looks at the symbols of programs without
 running them: what they hold is then what docs/lean.md describes.
 """
-import argparse
 import re
 import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import Failure, execute, put_table, table
+from processes import Failure, add_commands, execute, new_parser, put_table, run_script, table
 
 
 # ---- What there is, and what an example names of it
@@ -44,10 +43,11 @@ def catalogue(root):
 
 
 def source_of(example, root):
-    """The text of an example and of the headers of its own that it includes."""
+    """The text of an example and of the headers of its own that it includes, without comments."""
     text = (root / "examples" / f"{example}.cpp").read_text()
     headers = re.findall(r'^#include "(support/\w+\.hpp)"', text, re.MULTILINE)
-    return text + "".join((root / "examples" / header).read_text() for header in headers)
+    text += "".join((root / "examples" / header).read_text() for header in headers)
+    return re.sub(r"(^|\s)//.*$", "", text, flags=re.MULTILINE)
 
 
 def named_laws(source, laws):
@@ -68,7 +68,7 @@ def absent_names(source, laws):
     absent = set(laws) - named - parts
     for item, names in (("interaction", ("simulation::Interaction", "neighbours::PairList", "neighbours::Ghosts")),
                         ("summed", ("simulation::Summed",)), ("bonds", ("simulation::Bonds", "neighbours::BondList"))):
-        if not re.search(rf"\b{item}<", source):
+        if not re.search(rf"\b(?:\w+_)?{item}<", source):  # also substepped_bonds<
             absent.update(names)
     return absent
 
@@ -121,6 +121,29 @@ class Scene:
                 sweeps + "".join(f" and one for {name}" for name in summed)]
 
 
+# Rows of the program lean, by what it is that an example has if its source matches; the rest is in place of something else.
+MATTERS = {
+    "liquid": {"density diffusion": r"\bdiffusion::(?!None)", "energy equation": r"\bsph::Compressible\b|\bthermal::",
+               "heat conduction": r"\bsph::HeatConduction\b", "viscosity of each particle, mu(T)": r"\brheology::(?!Constant\b)",
+               "viscosity of each particle, mu(shear rate), a sum over neighbours": r"\bsummed<",
+               "tensile correction": r"\btensile::(?!None)", "bonds: springs, 6 to each particle": r"\b(?:\w+_)?bonds<"},
+    "solid of springs": {"neighbour lists and repulsion between beads": r"\binteraction<",
+                         "pressure and viscosity of a liquid: density, neighbour lists": r"\beos::",
+                         "bonds with velocity: spring and dashpot": r"\bbond::KelvinVoigt\b",
+                         "bonds with memory: standard linear solid": r"\bbond::StandardLinearSolid\b",
+                         "bonds that break": r"\bbond::Breaking\b"},
+    "heat at rest": {"flow: motion, pressure, viscosity": r"\bforcing::|\bsph::(?:WeaklyC|C)ompressible\b"},
+}
+
+
+def left_out(source, costs):
+    """What an example has not, and over that of its kind of scene the time of a step which has it: as text."""
+    flows = re.search(r"\bsph::(?:WeaklyC|C)ompressible\b", source)
+    kind = "liquid" if flows else "heat at rest" if re.search(r"\bsph::HeatConduction\b", source) else "solid of springs"
+    ratios = {what: ratio for scene, what, *_, ratio, _, _ in costs if scene == kind}
+    return [kind, "; ".join(f"{what}: {ratios[what]}" for what, pattern in MATTERS[kind].items() if not re.search(pattern, source))]
+
+
 def scenes_of(text):
     return [Scene(found) for found in re.findall(r"^groups\n.*?bytes per particle$", text, re.MULTILINE | re.DOTALL)]
 
@@ -135,6 +158,7 @@ def absent_fields(scenes, root):
 
 
 def check(options):
+    """look for absent names in the symbols of programs"""
     laws = catalogue(options.root)
     page = (options.root / "docs/lean.md").read_text()
     for program in options.programs:
@@ -149,8 +173,10 @@ def check(options):
 
 
 def write(options):
+    """run all and write docs/lean.md"""
     root, laws = options.root, catalogue(options.root)
-    held, absence, descriptions = [], [], []
+    costs = [line.split("; ") for line in execute([options.lean]).text.splitlines()]
+    held, absence, leaves, descriptions = [], [], [], []
     objects = {path.name.split(".")[0]: path for path in options.objects}
     with tempfile.TemporaryDirectory() as folder:
         for program in options.programs:
@@ -165,36 +191,29 @@ def write(options):
             absence.append([example, names or "none", f"{len(absent)}", *map(str, numbers), "none"])
             held += dict.fromkeys((example, *scene.row()) for scene in scenes)  # each once
             if scenes:
+                leaves.append([example, *left_out(source, costs)])
                 descriptions.append(f"### {example}\n\n```\n" + "\n\n".join(dict.fromkeys(scene.text for scene in scenes)) + "\n```")
-    costs = [line.split("; ") for line in execute([options.lean]).text.splitlines()]
     page = root / "docs/lean.md"
     put_table(page, "held", table(["example", "bytes of columns + record, by group", "bytes per particle, all", "pair lists", "bonds",
                                    "passes", "sweeps"], held))
     put_table(page, "absent", table(["example", "laws that its source names", "absent names", "symbols", "symbols, unoptimised",
                                      "absent names found"], absence))
-    put_table(page, "costs", table(["the scene, and", "bytes of columns", "of the record", "of all, per particle", "ns per particle-step",
+    put_table(page, "costs", table(["scene", "and", "bytes of columns", "of the record", "of all, per particle", "ns per particle-step",
                                     "time over that of the scene", "(least to largest)"],
-                                   [[*cost[:6], f"{cost[6]} to {cost[7]}"] for cost in costs]))
+                                   [[*cost[:7], f"{cost[7]} to {cost[8]}"] for cost in costs]))
+    put_table(page, "left out", table(["example", "nearest to the scene", "left out, and the time of a step with it over that without"],
+                                      leaves))
     put_table(page, "descriptions", "\n\n".join(descriptions))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(required=True)
-    writer = commands.add_parser("write", help="run all and write docs/lean.md")
-    writer.add_argument("--objects", type=Path, nargs="+", required=True, help="the same examples, compiled without optimisation")
-    writer.add_argument("--lean", required=True, help="the program lean")
-    writer.set_defaults(function=write)
-    checker = commands.add_parser("check", help="look for absent names in the symbols of programs")
-    checker.set_defaults(function=check)
-    for command in (writer, checker):
-        command.add_argument("--root", type=Path, required=True, help="folder of the repository")
+    parser = new_parser(__doc__)
+    commands = add_commands(parser, write=write, check=check)
+    for command in commands.values():
         command.add_argument("--programs", type=Path, nargs="+", required=True, help="the examples")
-    options = parser.parse_args()
-    try:
-        options.function(options)
-    except Failure as failure:
-        sys.exit(f"lean: {failure}")
+    commands["write"].add_argument("--objects", type=Path, nargs="+", required=True, help="the same, compiled without optimisation")
+    commands["write"].add_argument("--lean", required=True, help="the program lean")
+    run_script(parser)
 
 
 if __name__ == "__main__":

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """Runs every example and puts what it finds into docs/: validation.csv, all figures of the quick and of the usual run; and the tables of
-validation.md (between its comments `<!-- table: NAME -->` and `<!-- end -->`), those of the usual run.
+validation.md (between its comments `<!-- table: NAME -->` and `<!-- end -->`), those of the usual run. The run times also go into the first
+comments of the examples.
 
     cmake --preset release && cmake --build --preset release --target validation
 
 One thread, one example at a time, some ten minutes; run times are processor times of the whole program and count on an idle machine.
 `validation.py check` compares the result of one run with validation.csv: the tests documented_EXAMPLE_SIZE. An error may differ from the
 documented one by 1 % of it, or by a thousandth of its bound if that is more; in the runs of CHAOTIC, which amplify rounding, and where the
-bound itself is one of rounding (below 1e-9), by a quarter of the bound. The names and bounds of the errors and the number of particles must be those documented. docs/validation.md says why.
+bound itself is one of rounding (below 1e-9), by a quarter of the bound. The names and bounds of the errors and the number of particles must
+be those documented. docs/validation.md says why.
 """
-import argparse
 import csv
 import json
 import re
@@ -17,13 +18,14 @@ import sys
 import tempfile
 from pathlib import Path
 
-from processes import Failure, execute, put_table, table
+from processes import Failure, add_commands, execute, new_parser, put_table, run_script, table
 
 SIZES = {"quick": ["--quick"], "normal": []}  # and how to ask for them
 TOLERANCE = 0.01
 TOLERANCE_OF_BOUND, TOLERANCE_OF_CHAOTIC = 0.001, 0.25
 ROUNDING = 1e-9
 DOI = r"doi:(10\.[^\s,;()]*(?:\([^\s()]*\)[^\s,;()]*)*[^\s,;().:])"  # without the full stop of a sentence
+DURATIONS = r"\(\d+ s; \d+ s with --quick"  # in the first comment of an example
 CHAOTIC = (("dam_break", "normal"), ("membrane", "normal"))
 COLUMNS = ("example", "size", "case", "resolution", "particles", "steps", "run time [s]", "bytes per particle", "step bound by",
            "error", "value", "bound", "reference")
@@ -90,10 +92,26 @@ def figures(results, sources):
     return "\n\n".join(sections)
 
 
+def put_durations(source, usual, quick):
+    """Puts run times [s], rounded, into the first comment of an example: "(60 s; 15 s with --quick"."""
+    def rounded(seconds):
+        return max(1, round(seconds)) if seconds < 20 else 5 * round(seconds / 5)
+
+    source.write_text(re.sub(DURATIONS, f"({rounded(usual)} s; {rounded(quick)} s with --quick", source.read_text()))
+
+
 def write(options):
+    """run all examples and write docs/validation.csv and docs/validation.md"""
+    sources = {program.name: options.root / f"examples/{program.name}.cpp" for program in options.programs}
+    for source in sources.values():
+        if len(re.findall(DURATIONS, source.read_text())) != 1:
+            raise Failure(f"{source} needs its run times once, as in (60 s; 15 s with --quick)")
     with tempfile.TemporaryDirectory() as folder:
         results = [run(program, size, folder) for program in options.programs for size in SIZES]
+    seconds = {(result["example"], result["size"]): result["seconds"] for result in results}
     usual = [result for result in results if result["size"] == "normal"]
+    for name, source in sources.items():
+        put_durations(source, seconds[name, "normal"], seconds[name, "quick"])
     page = options.root / "docs/validation.md"
     put_table(page, "overview", overview(usual, options.programs))
     put_table(page, "figures", figures(usual, options.root / "examples"))
@@ -115,17 +133,19 @@ def differences(result, size, documented):
     yield from (f"{name}: measured, not documented" for name in errors if name not in names)
     for row in documented:
         name, value, bound, particles = row["error"], float(row["value"]), float(row["bound"]), int(row["particles"])
+        share = TOLERANCE_OF_CHAOTIC if is_chaotic or bound < ROUNDING else TOLERANCE_OF_BOUND
         if name not in errors:
             yield f"{name}: documented, not measured"
         elif particles != result["particles"]:
             yield f"{name}: of {result['particles']} particles, documented are {particles}"
         elif abs(errors[name]["bound"] - bound) > TOLERANCE * bound:
             yield f"{name}: bound {errors[name]['bound']:.6g}, documented is {bound:.6g}"
-        elif not abs(errors[name]["value"] - value) <= max(TOLERANCE * abs(value), bound * (TOLERANCE_OF_CHAOTIC if is_chaotic or bound < ROUNDING else TOLERANCE_OF_BOUND)):
+        elif not abs(errors[name]["value"] - value) <= max(TOLERANCE * abs(value), bound * share):
             yield f"{name}: {errors[name]['value']:.6g}, documented is {value:.6g} of {bound:.6g}"
 
 
 def check(options):
+    """compare a result with docs/validation.csv"""
     result = json.loads(options.result.read_text())
     with open(options.root / "docs/validation.csv", newline="") as file:
         documented = [row for row in csv.DictReader(file) if (row["example"], row["size"]) == (result["example"], options.size)]
@@ -136,22 +156,12 @@ def check(options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(required=True)
-    writer = commands.add_parser("write", help="run all examples and write docs/validation.csv and docs/validation.md")
-    writer.add_argument("--programs", type=Path, nargs="+", required=True, help="the examples")
-    writer.set_defaults(function=write)
-    checker = commands.add_parser("check", help="compare a result with docs/validation.csv")
-    checker.add_argument("--result", type=Path, required=True, help="result.json of a run")
-    checker.add_argument("--size", choices=SIZES, required=True, help="of that run")
-    checker.set_defaults(function=check)
-    for command in (writer, checker):
-        command.add_argument("--root", type=Path, required=True, help="folder of the repository")
-    options = parser.parse_args()
-    try:
-        options.function(options)
-    except Failure as failure:
-        sys.exit(f"validation: {failure}")
+    parser = new_parser(__doc__)
+    commands = add_commands(parser, write=write, check=check)
+    commands["write"].add_argument("--programs", type=Path, nargs="+", required=True, help="the examples")
+    commands["check"].add_argument("--result", type=Path, required=True, help="result.json of a run")
+    commands["check"].add_argument("--size", choices=SIZES, required=True, help="of that run")
+    run_script(parser)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// Start-up of flow between two plates, driven by a body force (Poiseuille) or by a moving plate (Couette) (6 s; 1 s with --quick).
+// Start-up of flow between two plates, driven by a body force (Poiseuille) or by a moving plate (Couette) (1 s; 1 s with --quick).
 // Errors of the velocity profile against the series solutions, during the transient and at its end. Cases VISC-1 and FS-2.
 // Viscous law: J. P. Morris, P. J. Fox, Y. Zhu, J. Comput. Phys. 136 (1997) 214-226, doi:10.1006/jcph.1997.5776.
 #include <cmath>

@@ -1,5 +1,5 @@
 // Plane channel flow of fluids whose viscosity varies: with the temperature between a cold and a hot wall, prescribed or conducted, and
-// with the shear rate; and of one viscosity by the laws along the line of centres (20 s; 2 s with --quick). Errors of velocity and
+// with the shear rate; and of one viscosity by the laws along the line of centres (11 s; 2 s with --quick). Errors of velocity and
 // viscosity against exact profiles. Cases VISC-2, VISC-3, VISC-4, VISC-5. A. Albano et al., ChemEngineering 5 (2021) 30,
 // doi:10.3390/chemengineering5020030, section 7.2.
 #include <algorithm>
@@ -183,7 +183,7 @@ void along_centres(const Viscosity& viscosity, double sound_speed, const std::st
   const auto parabola = [](double y) { return 4.0 * top_speed * y / gap * (1.0 - y / gap); };
   const auto error = example::profile_error(scene.template group<Water>(), parabola);
   result.error("VISC-4, " + name + ": scale of u less " + to_text(scale), error.scale - scale, margin,
-               "the law's own error on this lattice");
+               "independent runs: the law's own error on this lattice");
   result.error("VISC-4, " + name + ": shape of u", error.shape, shape, "parabola");
   write_profile(folder, "VISC-4_" + name, scene.template group<Water>(), parabola);
   result.add(report);

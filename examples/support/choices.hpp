@@ -6,33 +6,28 @@
 
 #include "support/options.hpp"
 
-/// The choices of an example, unless it is compiled with another one in their place, as in -DEXAMPLE_KERNEL=CubicSpline
-/// (bench/work_precision does). Bounds of errors are those of the example's own choices.
+// What stands in the place of the example's own choice, a type `Own`.
+#ifndef EXAMPLE_KERNEL
+#define EXAMPLE_KERNEL Own
+#endif
+#ifndef EXAMPLE_INTEGRATOR
+#define EXAMPLE_INTEGRATOR Own
+#endif
+#ifndef EXAMPLE_PRECISION
+#define EXAMPLE_PRECISION Own
+#endif
+
+/// The choices of an example, unless it is compiled with another one in their place, as in -DEXAMPLE_INTEGRATOR=dmp::integrator::Leapfrog
+/// or '-DEXAMPLE_KERNEL=dmp::kernel::CubicSpline<Own::dimension>' (bench/work_precision.py does). Bounds of errors are those of the
+/// example's own choices.
 namespace example {
 
-#ifdef EXAMPLE_KERNEL
 template <class Own>
-using Kernel = dmp::kernel::EXAMPLE_KERNEL<Own::dimension>;
-#else
+using Kernel = EXAMPLE_KERNEL;
 template <class Own>
-using Kernel = Own;
-#endif
-
-#ifdef EXAMPLE_INTEGRATOR
-template <class>
-using Integrator = dmp::integrator::EXAMPLE_INTEGRATOR;
-#else
+using Integrator = EXAMPLE_INTEGRATOR;
 template <class Own>
-using Integrator = Own;
-#endif
-
-#ifdef EXAMPLE_PRECISION
-template <class>
-using Precision = dmp::precision::EXAMPLE_PRECISION;
-#else
-template <class Own>
-using Precision = Own;
-#endif
+using Precision = EXAMPLE_PRECISION;
 
 /// To run until `end` [s], by the fraction --safety of the bounds of the time step where that is given, otherwise by `time_step` [s]
 /// (0: the scene chooses it).
