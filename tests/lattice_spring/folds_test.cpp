@@ -2,7 +2,11 @@
 #include <array>
 #include <vector>
 #include <doctest/doctest.h>
+#include <dmp/bond.hpp>
+#include <dmp/forcing.hpp>
+#include <dmp/integrator.hpp>
 #include <dmp/lattice_spring.hpp>
+#include <dmp/simulation.hpp>
 
 using namespace dmp::lattice_spring;
 using dmp::Vector;
@@ -41,4 +45,42 @@ TEST_CASE("a layer that has been pushed through the next one is folded, and so i
 TEST_CASE("beads without bonds in all directions cannot be folded") {
   const std::vector<Vector<2>> x{{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}}, back{{2.0, 0.0}, {1.0, 0.0}, {0.0, 0.0}};
   CHECK(folded_beads<2>(std::vector<dmp::neighbours::Bond>{{0, 1}, {1, 2}}, x, back).empty());
+}
+
+namespace {
+
+struct Beads {};
+struct Pressed {
+  double force;        // [k l]
+  std::size_t folded;  // beads
+};
+
+/// A ball of R = 8 l, its layers along two plates, pressed by 4 l (a quarter of its diameter) in equal steps, each from rest to rest.
+Pressed press(int steps) {
+  constexpr double radius = 8.0 - 1e-6, approach = 4.0;
+  auto body = lattice_body(CubicLattice{.spacing = 1.0}, dmp::geometry::Cuboid<3>{.lower = {-9, -9, -9}, .upper = {9, 9, 9}},
+                           dmp::geometry::Ball<3>{.centre = {0, 0, 0}, .radius = radius});
+  measure_rest_lengths<3>(body.bonds, body.points.positions);
+  const dmp::forcing::Plane<3> below{
+      .normal = {{0.0, 0.0, 1.0}}, .position = -7.0, .strength = 625.0, .motion = {.speed = 0.5 * approach}};
+  const dmp::forcing::Plane<3> above{
+      .normal = {{0.0, 0.0, -1.0}}, .position = -7.0, .strength = 625.0, .motion = {.speed = 0.5 * approach}};
+  auto ball = dmp::simulation::scene<dmp::integrator::Leapfrog>(
+      dmp::geometry::Box<3>::unbounded(), dmp::simulation::group<Beads>("ball", dmp::particles::Mobile{}, body.points, 1.0),
+      dmp::simulation::bonds<Beads, Beads>(dmp::bond::Harmonic{.stiffness = 1.0}, body.bonds),
+      dmp::simulation::forced_by<Beads>(below, above));
+  for (int n = 1; n <= steps; ++n)
+    dmp::simulation::relax(ball, {.force_tolerance = 1e-5, .time = static_cast<double>(n) / steps, .without_rotation = true});
+  const auto& x = ball.group<Beads>().positions();
+  return {.force = dmp::simulation::load_on<Beads>(ball, below, 1.0).force[2],
+          .folded = folded_beads<3>(body.bonds, body.points.positions, std::vector<Vector<3>>(x.begin(), x.end())).size()};
+}
+
+}  // namespace
+
+TEST_CASE("section 6: plates that approach by 1.3 l at once fold the layers they meet, which is seen, and lose force for good; by l/5 they do not") {
+  const Pressed slow = press(20), abrupt = press(3);
+  CHECK(slow.folded == 0);
+  CHECK(abrupt.folded > 0);
+  CHECK(abrupt.force < 0.95 * slow.force);
 }

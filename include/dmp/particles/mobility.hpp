@@ -1,5 +1,7 @@
 #pragma once
 #include <string_view>
+#include <type_traits>
+#include <dmp/core/components.hpp>
 #include <dmp/core/require.hpp>
 #include <dmp/core/vector.hpp>
 
@@ -38,11 +40,33 @@ struct Driven {
 template <class Motion>
 Driven(Motion) -> Driven<Motion>;
 
+/// Follows a prescribed motion along one direction, and the forces across it: a support on rollers, grips that let a bar become thinner.
+/// Motion: as of Driven, with `direction` (of length 1) besides: particles::Clamp.
+template <class Motion>
+struct Roller {
+  static constexpr std::string_view name = "roller";
+  static constexpr bool moves = true, evolves = true;
+  Motion motion;
+  /// The part of a vector that is prescribed.
+  template <class V>
+  [[nodiscard]] V held(const V& vector) const noexcept {
+    const auto along = to_vector<V::RowsAtCompileTime>(motion.direction.value);
+    return along.dot(vector) * along;
+  }
+};
+template <class Motion>
+Roller(Motion) -> Roller<Motion>;
+
 template <class M>
 inline constexpr bool is_driven = false;
 template <class Motion>
 inline constexpr bool is_driven<Driven<Motion>> = true;
 template <class M>
-inline constexpr bool is_mobile = std::is_same_v<M, Mobile>;
+inline constexpr bool is_roller = false;
+template <class Motion>
+inline constexpr bool is_roller<Roller<Motion>> = true;
+/// Forces move it, all of it or a part.
+template <class M>
+inline constexpr bool is_mobile = std::is_same_v<M, Mobile> || is_roller<M>;
 
 }  // namespace dmp::particles

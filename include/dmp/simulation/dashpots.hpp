@@ -175,6 +175,7 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
           View<Dim, typename Base::Lanes, typename G::Layout::writes> nothing;
           sweep::set_zero(nothing);
           work.drag[i] = -to_vector<Dim>(g.sums.take(i, nothing).force);
+          if constexpr (particles::is_roller<typename G::Mobility>) work.drag[i] -= g.mobility.held(work.drag[i]);
         }
       });
     });

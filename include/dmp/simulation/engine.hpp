@@ -135,7 +135,7 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
   void begin(G& g, std::size_t i, double dt, double time) {
     if constexpr (mobile<G>)
       Integrator::begin(g.positions()[i], g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
-    else follow_motion(g, i, time);
+    follow_motion(g, i, time);
     begin_state(g, i, dt);
   }
   template <class G>
@@ -153,17 +153,25 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
       Integrator::end_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
     });
   }
-  /// Puts a particle of a driven group where its motion has it at `time`; nothing for other groups.
+  /// Puts a particle of a driven group, or of one on rollers, where its motion has it at `time`; nothing for other groups.
   template <class G>
   void follow_motion(G& g, std::size_t i, double time) {
-    if constexpr (particles::is_driven<typename G::Mobility>) {
+    using M = typename G::Mobility;
+    if constexpr (particles::is_driven<M> || particles::is_roller<M>) {
       const auto& start = g.template get<StartPosition>()[i];
       Vector<Dim> there = g.mobility.motion.position(start, time);
       for (int d = 0; d < Dim; ++d)  // no jump through a periodic face before positions are put back into the box
         if (const double period = this->periods_[static_cast<std::size_t>(d)]; period > 0.0)
           there[d] += period * std::round((g.positions()[i][d] - there[d]) / period);
-      g.positions()[i] = there;
-      g.template get<field::Velocity>()[i] = g.mobility.motion.velocity(start, time);
+      auto& velocity = g.template get<field::Velocity>()[i];
+      const Vector<Dim> speed = g.mobility.motion.velocity(start, time);
+      if constexpr (particles::is_driven<M>) {
+        g.positions()[i] = there;
+        velocity = speed;
+      } else {
+        g.positions()[i] += g.mobility.held(Vector<Dim>(there - g.positions()[i]));
+        velocity += g.mobility.held(Vector<Dim>(speed - velocity));
+      }
     }
   }
   /// Slow forces are kicks at the two ends of the step; between them the sub-stepped bonds alone move their groups.
@@ -187,6 +195,7 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
       for_each_fast([&](auto& g, std::size_t i) {
         g.template get<field::Velocity>()[i] += 0.5 * part * g.template get<FastAcceleration>()[i];
         g.positions()[i] += part * g.template get<field::Velocity>()[i];
+        follow_motion(g, i, time - dt + (k + 1) * part);
       });
       this->fast_forces(part);
       for_each_fast(

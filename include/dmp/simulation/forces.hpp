@@ -248,12 +248,10 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
             Vector<Dim> acceleration = Vector<Dim>::Zero();
             if constexpr (contains<field::Acceleration, typename C::writes>) acceleration += to_vector<Dim>(total.acceleration);
             if constexpr (contains<field::Force, typename C::writes>) acceleration += inverse_mass * to_vector<Dim>(total.force);
-            if constexpr (Fast) {
-              g.template get<FastAcceleration>()[i] = acceleration;
-            } else {
-              acceleration += forced(g, i, time, dt);
-              g.template get<field::Acceleration>()[i] = acceleration;
-            }
+            if constexpr (!Fast) acceleration += forced(g, i, time, dt);
+            if constexpr (particles::is_roller<typename G::Mobility>) acceleration -= g.mobility.held(acceleration);
+            if constexpr (Fast) g.template get<FastAcceleration>()[i] = acceleration;
+            else g.template get<field::Acceleration>()[i] = acceleration;
           }
           if constexpr (!Fast)
             for_each_field(typename C::rates{}, [&]<class Rate>(Rate) {

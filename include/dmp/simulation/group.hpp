@@ -50,7 +50,7 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
   explicit Group(const Item& item) : name(item.name), mobility(item.mobility), mass(item.mass), spacing(item.points.spacing) {
     columns.resize(item.points.positions.size());
     positions().assign(item.points.positions.begin(), item.points.positions.end());
-    if constexpr (particles::is_driven<Mobility>) columns.template get<StartPosition>() = positions();
+    if constexpr (contains<StartPosition, typename Layout::columns>) columns.template get<StartPosition>() = positions();
     id.resize(positions().size());
     for (std::size_t k = 0; k < id.size(); ++k) id[k] = static_cast<std::uint32_t>(k);
     constants.mass = mass;

@@ -37,7 +37,7 @@ struct GroupItem {
 template <class Tag, class Mobility, int Dim>
 [[nodiscard]] GroupItem<Tag, Mobility, Dim> group(std::string name, Mobility mobility, geometry::Points<Dim> points, double mass) {
   require_positive(("group " + name + ": mass of a particle").c_str(), mass, "kg");
-  if constexpr (particles::is_driven<Mobility>) check_parameters(mobility.motion);
+  if constexpr (requires { mobility.motion; }) check_parameters(mobility.motion);
   if (points.positions.empty()) throw ParameterError("group " + name + ": at least one particle is needed, got none");
   return {std::move(name), std::move(mobility), std::move(points), mass};
 }

@@ -175,6 +175,10 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
       sums += sum_over_rows(g.blocks, Sums{}, [&](std::size_t i) {
         if constexpr (Dim > 1)
           if (options.without_rotation) rotation.remove(g.positions()[i], velocity[i], acceleration[i]);
+        if constexpr (particles::is_roller<typename std::remove_cvref_t<decltype(g)>::Mobility>) {  // what is held does not come to rest
+          velocity[i] -= g.mobility.held(velocity[i]);
+          acceleration[i] -= g.mobility.held(acceleration[i]);
+        }
         const double squared = acceleration[i].squaredNorm();
         return Sums{mass * acceleration[i].dot(velocity[i]), mass * velocity[i].squaredNorm(), mass * squared, mass * mass * squared,
                     squared < std::numeric_limits<double>::infinity()};
