@@ -277,7 +277,38 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
 
 }  // namespace detail
 
-/// Every law's bound of the time step for the present state: the smallest, and whose it is. `time` [s] as forcings see it.
+namespace detail {
+
+/// What laws of bonds and forcings say of themselves is what bounds are made of: ParameterError unless it is a number >= 0.
+template <class Engine, class Item>
+void check_stated_rates(const Engine& engine, const Item& item) {
+  const auto stated = [](const auto& whose, const char* what, double value, const char* unit) {
+    if (!(value >= 0.0)) throw ParameterError(whose() + ": " + what + " must be >= 0 " + unit + ", got " + to_text(value));
+  };
+  if constexpr (is_bonds<Item>) {
+    const auto whose = [&] { return "bonds of " + name_of_bonds(engine, item); };
+    stated(whose, "largest_stiffness", item.law.largest_stiffness(), "N/m");
+    stated(whose, "largest_damping", largest_damping(item.law), "N s/m");
+  }
+  if constexpr (is_forced<Item>)
+    engine.for_each_group([&](const auto& g) {
+      if constexpr (Item::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
+        std::apply(
+            [&](const auto&... law) {
+              const auto one = [&](const auto& l) {
+                if constexpr (requires { l.damping_rate(g.mass); })
+                  stated([&] { return "drag on " + g.name; }, "damping_rate", l.damping_rate(g.mass), "1/s");
+              };
+              (one(law), ...);
+            },
+            item.laws);
+    });
+}
+
+}  // namespace detail
+
+/// Every law's bound of the time step for the present state: the smallest, and whose it is. `time` [s] as forcings see it. ParameterError
+/// if what a law states is no bound.
 template <class Integrator, class Engine>
 [[nodiscard]] sweep::StepLimit find_step_limit(const Engine& engine, double time, bool without_substepped) {
   sweep::StepLimit limit;
@@ -294,6 +325,7 @@ template <class Integrator, class Engine>
   };
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
+    detail::check_stated_rates(engine, active.item);
     if constexpr (is_interaction<I>) {
       const std::size_t a = index_of(std::type_identity<typename I::A>{}), b = index_of(std::type_identity<typename I::B>{});
       limit.damping = limit.oscillation = limit.sound = 0.0;

@@ -182,7 +182,8 @@ class Scene {
       report.time_step = clock_.time_step;
       report.step_bound_by = options.time_step == 0.0
                                  ? report.limit.bound_by
-                                 : "given, " + share_of(report.limit.stable_time_step) + " of the bound of " + report.limit.stability_bound_by;
+                                 : "given, " + share_of(report.limit.stable_time_step) + " of the bound of " +
+                                       report.limit.stability_bound_by;
       if (options.time_step > report.limit.time_step)
         report.step_bound_by += ", " + share_of(report.limit.time_step) + " of what resolves " + report.limit.bound_by;
     } catch (const SimulationError& error) {

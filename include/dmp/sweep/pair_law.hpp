@@ -80,7 +80,8 @@ struct PotentialForce {
   void add(const Pair& pair, const I&, const J&, Sums& sums) const noexcept {
     sums.force += potential.force_factor(pair.distance_squared) * pair.separation;
   }
-  /// Stable: omega dt < limit for a particle held by contacts on all sides, omega^2 <= 2 * 6 U''/m (Gershgorin). Resolved: see collision_step.
+  /// Stable: omega dt < limit for a particle held by contacts on all sides, omega^2 <= 2 * 6 U''/m (Gershgorin). Resolved:
+  /// collision_step.
   void step_limits(const StepState& a, const StepState& b, StepLimit& limit) const {
     limit.oscillate(12.0 * potential.largest_stiffness() / std::min(a.mass, b.mass), a.oscillation_limit, "pair potential");
     const double reduced_mass = 1.0 / (1.0 / a.mass + 1.0 / b.mass);

@@ -66,7 +66,8 @@ struct StepLimit {
 
  private:
   static void require_rate(double rate, const char* unit, const std::string& law) {
-    if (!(rate >= 0.0)) throw ParameterError("rate by which " + law + " bounds the time step must be >= 0 " + unit + ", got " + to_text(rate));
+    if (!(rate >= 0.0))
+      throw ParameterError("rate by which " + law + " bounds the time step must be >= 0 " + unit + ", got " + to_text(rate));
   }
 };
 
