@@ -12,6 +12,7 @@
 #include <dmp/core/require.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/forcing/concept.hpp>
+#include <dmp/integrator/leapfrog.hpp>
 #include <dmp/particles/mobility.hpp>
 #include <dmp/simulation/composition.hpp>
 #include <dmp/sweep/step_limit.hpp>
@@ -349,8 +350,9 @@ template <class Integrator, class Engine>
   return limit;
 }
 
-/// Sub-steps of the sub-stepped bonds for a step of `dt` [s]: what the scene asks for, or as many as their own bound needs.
-template <class Integrator, class Engine>
+/// Sub-steps of the sub-stepped bonds for a step of `dt` [s]: what the scene asks for, or as many as their own bound needs. That is the
+/// leapfrog's whatever the integrator, for that is how the engine sub-steps.
+template <class Engine>
 [[nodiscard]] int substeps_for(const Engine& engine, double dt) {
   sweep::StepLimit fast;
   int asked = 0;
@@ -361,7 +363,7 @@ template <class Integrator, class Engine>
         asked = std::max(asked, active.item.substeps);
       }
   });
-  engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, 0.0, detail::BondKind::fast, {}, fast); });
+  engine.for_each_group([&](const auto& g) { detail::limit_group<integrator::Leapfrog>(engine, g, 0.0, detail::BondKind::fast, {}, fast); });
   const double needed = std::ceil(dt / (0.9 * fast.time_step));
   constexpr double most = 1e6;
   if (asked == 0 && !(needed <= most))

@@ -265,7 +265,7 @@ class Scene {
     const bool goes_on = dt == clock_.time_step && clock_.substeps > 0 && clock_.step % steps_between_choices != 0;
     clock_.choose(dt);
     if constexpr (has_substeps) {
-      if (!goes_on) clock_.substeps = static_cast<std::uint64_t>(substeps_for<Integrator>(engine_, dt));
+      if (!goes_on) clock_.substeps = static_cast<std::uint64_t>(substeps_for(engine_, dt));
       engine_.set_substeps(static_cast<int>(clock_.substeps));
     }
   }
