@@ -238,12 +238,7 @@ class Scene {
     }() || ...);
   }();
   static constexpr bool has_bonds = (is_bonds<Item> || ...);
-  static constexpr bool bonds_break = [] {
-    return ([] {
-      if constexpr (is_bonds<Item>) return bond::CanBreak<decltype(Item::law)>;
-      return false;
-    }() || ...);
-  }();
+  static constexpr bool bonds_break = Engine<Dim, Integrator, Precision, Item...>::bonds_break;
   static constexpr std::uint64_t steps_between_choices = bounds_jump ? 1 : 10;
   static constexpr bool has_substeps = Engine<Dim, Integrator, Precision, Item...>::has_substeps;
   struct Observer {
