@@ -182,7 +182,8 @@ class BondList {
     double sum = 0.0;
     for (std::size_t row = 0; row + 1 < offset_.size(); ++row)
       for (std::uint32_t entry = offset_[row]; entry < offset_[row + 1]; ++entry)
-        if (rest_length_[entry] >= 0.0 && (row == i || (partner_[entry] == strides_.records * i && is_listed_once(row, entry - offset_[row]))))
+        if (rest_length_[entry] >= 0.0 &&
+            (row == i || (partner_[entry] == strides_.records * i && is_listed_once(row, entry - offset_[row]))))
           sum += weight_[weight_step_ * entry];
     return sum;
   }

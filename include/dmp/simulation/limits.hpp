@@ -119,7 +119,7 @@ template <class Engine, class I>
 template <class Engine, class G>
 [[nodiscard]] std::string binding_bonds(const Engine& engine, const G& g, BondKind kind, std::size_t i, bool by_dashpot) {
   std::string name;
-  double most = 0.0;
+  double most = -1.0;  // bonds without stiffness hold a particle too, if they are under tension
   for_each_bonds_of(engine, g, kind, [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto&) {
     const double share = per_mass * (by_dashpot ? largest_damping(item.law) : item.law.largest_stiffness()) * list.sum_of_weights(i);
     if (share <= most) return;
