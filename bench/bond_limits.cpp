@@ -9,8 +9,9 @@
 #include <limits>
 #include <random>
 #include <string>
-#include <Eigen/Eigenvalues>
 #include <dmp/dmp.hpp>
+
+#include "support/stiffness_matrix.hpp"
 
 using namespace dmp;
 using namespace dmp::simulation;
@@ -73,22 +74,6 @@ double largest(const auto& holds) {
   return low;
 }
 
-/// omega^2 of the springs: the largest eigenvalue of the stiffness matrix.
-double largest_eigenvalue(const Body<3>& body) {
-  const auto size = static_cast<Eigen::Index>(3 * body.points.positions.size());
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
-  for (const auto& bond : body.bonds) {
-    const Vector<3> n = (body.points.positions[bond.j] - body.points.positions[bond.i]).normalized();
-    const lattice_spring::Tensor<3> block = bond.weight * n * n.transpose();
-    const Eigen::Index i = 3 * static_cast<Eigen::Index>(bond.i), j = 3 * static_cast<Eigen::Index>(bond.j);
-    stiffness.block<3, 3>(i, i) += block;
-    stiffness.block<3, 3>(j, j) += block;
-    stiffness.block<3, 3>(i, j) -= block;
-    stiffness.block<3, 3>(j, i) -= block;
-  }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues()[size - 1];
-}
-
 void print(const std::string& name, const std::string& of, double omega, const auto& make_bonds, const auto& law, const Body<3>& body,
            double exact) {
   auto beads = scene_of(make_bonds, law, body);
@@ -98,7 +83,7 @@ void print(const std::string& name, const std::string& of, double omega, const a
 }
 
 void print_all(const std::string& of, const Body<3>& body) {
-  const double squared = largest_eigenvalue(body), omega = std::sqrt(squared);
+  const double squared = test::largest_eigenvalue(body), omega = std::sqrt(squared);
   print("Harmonic", of, omega, explicitly, bond::Harmonic{.stiffness = 1.0}, body, 2.0 / omega);
   // Ratios tau = c/k in 1/omega, so that damping is light and heavy on both bodies.
   for (const double ratio : {0.1, 10.0}) {

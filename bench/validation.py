@@ -8,8 +8,9 @@ comments of the examples.
 One thread, one example at a time, some ten minutes; run times are processor times of the whole program and count on an idle machine.
 `validation.py check` compares the result of one run with validation.csv: the tests documented_EXAMPLE_SIZE. An error may differ from the
 documented one by 1 % of it, or by a thousandth of its bound if that is more; in the runs of CHAOTIC, which amplify rounding, and where the
-bound itself is one of rounding (below 1e-9), by a quarter of the bound. The names and bounds of the errors and the number of particles must
-be those documented. docs/validation.md says why.
+bound itself is one of rounding (below 1e-9), by a quarter of the bound. The names and bounds of the errors and the number of particles must be
+those documented, and so must what bound the time step, and how far: the shares of a bound that a given step takes to one percent of it, the number
+of steps to 1 %, of CHAOTIC runs to 5 %. docs/validation.md says why.
 """
 import csv
 import json
@@ -23,6 +24,8 @@ from processes import Failure, add_commands, execute, new_parser, put_table, run
 SIZES = {"quick": ["--quick"], "normal": []}  # and how to ask for them
 TOLERANCE = 0.01
 TOLERANCE_OF_BOUND, TOLERANCE_OF_CHAOTIC = 0.001, 0.25
+TOLERANCE_OF_STEPS = 0.05  # of chaotic runs
+SHARE = re.compile(r"(\d+) %")  # of a bound, in what bound the step
 ROUNDING = 1e-9
 DOI = r"doi:(10\.[^\s,;()]*(?:\([^\s()]*\)[^\s,;()]*)*[^\s,;().:])"  # without the full stop of a sentence
 DURATIONS = r"\(\d+ s; \d+ s with --quick"  # in the first comment of an example
@@ -125,10 +128,22 @@ def write(options):
 # ---- The check
 
 
+def is_same_bound(found, documented):
+    """Whether the same bounds the step, to as much."""
+    shares = [[int(share) for share in SHARE.findall(bound)] for bound in (found, documented)]
+    return (SHARE.sub("", found) == SHARE.sub("", documented)
+            and all(abs(one - other) <= max(1, TOLERANCE * other) for one, other in zip(*shares)))
+
+
 def differences(result, size, documented):
     """What does not hold of the documented rows of this run."""
     errors = result["errors"]
     is_chaotic = (result["example"], size) in CHAOTIC
+    for bound, steps in {(row["step bound by"], int(row["steps"])) for row in documented}:
+        if not is_same_bound(result["step_bound_by"], bound):
+            yield f"the step is bound by `{result['step_bound_by']}`, documented is `{bound}`"
+        elif bound and abs(result["steps"] - steps) > (TOLERANCE_OF_STEPS if is_chaotic else TOLERANCE) * steps:
+            yield f"{result['steps']} steps, documented are {steps}"
     names = [row["error"] for row in documented]
     yield from (f"{name}: measured, not documented" for name in errors if name not in names)
     for row in documented:

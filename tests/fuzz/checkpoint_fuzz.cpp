@@ -3,28 +3,20 @@
 #include <string>
 #include <vector>
 #include <dmp/io/checkpoint.hpp>
-#include "fuzz/fuzz.hpp"
-#include "io/temporary_folder.hpp"
+#include "fuzz/checkpoint.hpp"
 
 namespace {
 
 constexpr const char* signature = "scene";
 
-std::string start() {
-  const test::TemporaryFolder folder;
-  dmp::io::CheckpointWriter checkpoint(folder / "checkpoint", signature);
+}  // namespace
+
+void fuzz::write_start(const std::string& path) {
+  dmp::io::CheckpointWriter checkpoint(path, signature);
   checkpoint.add("density", std::vector<double>{1.0, 2.5});
   checkpoint.add("id", std::array<std::uint16_t, 3>{1, 2, 3});
   checkpoint.add("none", std::vector<double>{});
   checkpoint.commit();
-  return test::read_bytes(folder / "checkpoint");
-}
-
-}  // namespace
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
-  static const std::string whole = start();
-  return fuzz::mutate(data, size, max_size, seed, whole, fuzz::correct_crcs);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -34,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
       read();
     } catch (const dmp::io::CheckpointError& error) {
-      fuzz::require(std::string(error.what()).starts_with("io::checkpoint: '" + file.path() + "': "), "an error must name the file");
+      fuzz::require_named(error, file);
     }
   };
   refused([&] {

@@ -4,10 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 #include <string>
-#include <dmp/io/detail/crc32.hpp>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -42,37 +40,6 @@ inline void require(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "fuzz: %s\n", what);
   std::abort();
-}
-
-/// Puts right the CRCs of a checkpoint, as far as its marks and lengths lead through the bytes (format: io/checkpoint.hpp). Without this
-/// hardly any change gets past them.
-inline void correct_crcs(std::uint8_t* bytes, std::size_t size) {
-  std::size_t at = 8;  // after the magic
-  const auto has = [&](std::uint64_t more) { return at <= size && more <= size - at; };
-  const auto number = [&]<class T>(std::size_t offset, T value) {
-    std::memcpy(&value, bytes + at + offset, sizeof value);
-    return value;
-  };
-  const auto close = [&](std::uint64_t length) {  // the CRC of the next `length` bytes behind them; whether there was room
-    if (!has(length) || !has(length + 4)) return false;
-    const std::uint32_t crc = dmp::io::detail::crc32(bytes + at, static_cast<std::size_t>(length));
-    std::memcpy(bytes + at + length, &crc, sizeof crc);
-    at += static_cast<std::size_t>(length) + 4;
-    return true;
-  };
-  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 4;
-  if (!has(16)) return;
-  const auto signature = number(8, std::uint64_t{});
-  if (signature > most || !close(16 + signature)) return;
-  while (has(20)) {
-    if (number(0, std::uint32_t{}) != 1) {
-      close(20);
-      return;
-    }
-    if (!has(28)) return;
-    const auto name = number(4, std::uint64_t{}), element = number(12, std::uint64_t{}), count = number(20, std::uint64_t{});
-    if (name > most || !close(28 + name) || (element > 0 && count > most / element) || !close(element * count)) return;
-  }
 }
 
 }  // namespace fuzz

@@ -2,8 +2,7 @@
 // values or to an error.
 #include <string>
 #include <dmp/dmp.hpp>
-#include "fuzz/fuzz.hpp"
-#include "io/temporary_folder.hpp"
+#include "fuzz/checkpoint.hpp"
 
 namespace {
 
@@ -26,20 +25,12 @@ auto small_scene() {
       material<Water, Beads>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
 }
 
-std::string start() {
-  const test::TemporaryFolder folder;
-  const std::string path = (folder / "checkpoint").string();
+}  // namespace
+
+void fuzz::write_start(const std::string& path) {
   auto scene = small_scene();
   scene.run({.until = 1e-3});
   scene.checkpoint(path);
-  return test::read_bytes(path);
-}
-
-}  // namespace
-
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
-  static const std::string whole = start();
-  return fuzz::mutate(data, size, max_size, seed, whole, fuzz::correct_crcs);
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -49,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     scene.restart(file.path());
   } catch (const io::CheckpointError& error) {
-    fuzz::require(std::string(error.what()).starts_with("io::checkpoint: '" + file.path() + "': "), "an error must name the file");
+    fuzz::require_named(error, file);
     fuzz::require(scene.time() == 0.0 && scene.step() == 0, "a refused checkpoint must change nothing");
     return 0;
   }

@@ -5,18 +5,19 @@
 #include <limits>
 #include <string>
 #include <vector>
-#include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
 #include <dmp/bond.hpp>
 #include <dmp/integrator.hpp>
 #include <dmp/lattice_spring.hpp>
 #include <dmp/simulation.hpp>
 #include "support/compare.hpp"
+#include "support/stiffness_matrix.hpp"
 
 using namespace dmp::lattice_spring;
 using dmp::Vector;
 using dmp::geometry::Ball, dmp::geometry::Box, dmp::geometry::Cuboid, dmp::geometry::Points;
 using dmp::neighbours::Bond;
+using test::largest_eigenvalue;
 using test::relative_error;
 using test::complaint;
 
@@ -28,22 +29,6 @@ auto solid(const Body<3>& body, double mass, const auto& law) {
   return dmp::simulation::scene<dmp::integrator::Leapfrog>(
       Box<3>::unbounded(), dmp::simulation::group<Beads>("beads", dmp::particles::Mobile{}, body.points, mass),
       dmp::simulation::bonds<Beads, Beads>(law, body.bonds));
-}
-
-/// Largest eigenvalue of the whole stiffness matrix of springs of stiffness 1.
-double largest_eigenvalue(const Body<3>& body) {
-  const auto size = static_cast<Eigen::Index>(3 * body.points.positions.size());
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
-  for (const auto& bond : body.bonds) {
-    const Vector<3> n = (body.points.positions[bond.j] - body.points.positions[bond.i]).normalized();
-    const Tensor<3> block = bond.weight * n * n.transpose();
-    const Eigen::Index i = 3 * static_cast<Eigen::Index>(bond.i), j = 3 * static_cast<Eigen::Index>(bond.j);
-    stiffness.block<3, 3>(i, i) += block;
-    stiffness.block<3, 3>(j, j) += block;
-    stiffness.block<3, 3>(i, j) -= block;
-    stiffness.block<3, 3>(j, i) -= block;
-  }
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues()[size - 1];
 }
 
 }  // namespace

@@ -637,8 +637,8 @@ TEST_CASE("sub-stepped bonds: the step of the scene follows the soft bonds, the 
   const auto report = soft.run({.until = 1.0, .time_step = 0.1});
   CHECK(report.limit.stable_time_step == doctest::Approx(1.0).epsilon(1e-12));  // 2/sqrt(4 k/m) of the soft bonds
   const double bound = 2.0 / std::sqrt(2.0 * stiff_stiffness);
-  CHECK(substeps_for<Leapfrog>(soft.engine(), 0.1) >= 0.1 / bound);
-  CHECK(substeps_for<Leapfrog>(soft.engine(), 0.1) <= 1.5 * 0.1 / bound);
+  CHECK(substeps_for(soft.engine(), 0.1) >= 0.1 / bound);
+  CHECK(substeps_for(soft.engine(), 0.1) <= 1.5 * 0.1 / bound);
   CHECK_THROWS_WITH_AS(substepped(10).run({.until = 1.0, .time_step = 0.1}), "substepped_bonds: substeps must be >= 71 for a step of 0.1 s, got 10", ParameterError);
   CHECK_THROWS_AS(plain().run({.until = 1.0, .time_step = 0.1}), ParameterError);
 }
@@ -665,6 +665,43 @@ TEST_CASE("sub-stepped bonds keep the energy over 10000 steps though one bond is
   CHECK(early <= 0.25 * 4.0 * 0.05 * 0.05);  // (omega dt/2)^2 of the fastest soft motion
   CHECK(late <= 1.2 * early);                // and no drift
   CHECK(velocities(soft).sum() == doctest::Approx(0.0).epsilon(1e-10));
+}
+
+namespace {
+
+/// Two free beads of 1 kg, thrown together by 1e-3 m/s: their dashpot c stops them with lambda = 2 c, of which leapfrog stands dt < 2/lambda = 1/c.
+template <class Integrator>
+auto damped_pair(const Modest& law, int substeps) {
+  auto pair = scene<Integrator>(Box<1>::unbounded(), group<Stiff>("stiff", Mobile{}, Points<1>{{Vector<1>(0.0), Vector<1>(1.0)}}, 1.0), substepped_bonds<Stiff, Stiff>(law, {{0, 1}}, substeps));
+  pair.template group<Stiff>().template get<field::Velocity>() = {Vector<1>(1e-3), Vector<1>(-1e-3)};
+  return pair;
+}
+
+}  // namespace
+
+TEST_CASE("sub-steps of damped bonds are those of leapfrog, dt/(0.9/c), under every integrator: stable at 0.95 of 1/c, and beyond it the beads fly apart") {
+  const auto check = []<class Integrator>(Integrator) {
+    constexpr double c = 50.0;
+    const Modest law{.law = {.stiffness = 0.0, .damping = c}}, modest{.law = law.law, .admitted = 1e-3};
+    for (const double dt : {0.01, 0.1, 1.0}) {
+      auto pair = damped_pair<Integrator>(law, 0);
+      pair.run({.until = 10.0 * dt, .time_step = dt});
+      CHECK(pair.engine().substeps() == static_cast<int>(std::ceil(dt * c / 0.9)));
+      CHECK(std::fabs(pair.template group<Stiff>().template get<field::Velocity>()[0][0]) < 1e-3);
+    }
+    const auto left = [&](double share, const Modest& bond) {  // of the speed, after 1000 steps of 20 sub-steps
+      auto pair = damped_pair<Integrator>(bond, 20);
+      const double dt = 20.0 * share / c;
+      pair.run({.until = 1000.0 * dt, .time_step = dt});
+      return std::fabs(pair.template group<Stiff>().template get<field::Velocity>()[0][0]) / 1e-3;
+    };
+    CHECK(left(0.95, law) < 1e-9);
+    CHECK_THROWS_AS(left(1.05, law), ParameterError);
+    CHECK_THROWS_AS(left(1.05, modest), SimulationError);
+  };
+  check(Leapfrog{});
+  check(ExtrapolatedVerlet{});
+  check(SymplecticEuler{});
 }
 
 TEST_CASE("bonds declared by several items: stable at 0.95 of the bound") {  // each item's bound is taken alone

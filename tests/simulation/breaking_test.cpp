@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string>
 #include <vector>
 #include <doctest/doctest.h>
 #include <dmp/bond.hpp>
@@ -341,6 +342,23 @@ TEST_CASE("a run goes on with its last step when the last bond has broken; bonds
                                bonds<Post, Post>(Breaking{Harmonic{.stiffness = 1.0}, LargestStrain{.strain = 0.1}}, {{0, 1}}));
   posts.run({.until = 1.0, .time_step = 0.1});
   CHECK(broken_bonds<Post, Post>(posts).empty());
+}
+
+TEST_CASE("a bound of the step is named after the bonds that are left: stiffer ones that have broken no longer count, listed at either end") {
+  const Breaking brittle{Harmonic{.stiffness = 100.0}, LargestStrain{.strain = 0.05}};
+  const Harmonic soft{.stiffness = 30.0};
+  const auto check = [](auto scene, const std::string& both) {
+    scene.template group<Bead>().template get<field::Velocity>()[0] = Vector<1>(2.0);
+    CHECK(scene.step_limit().stability_bound_by == "bond stiffness of " + both + " (number 1 of 2)");
+    const auto report = scene.run({.until = 0.2, .time_step = 0.01});
+    CHECK(report.limit.stability_bound_by == "bond stiffness of " + both + " (number 1 of 2)");
+    CHECK(scene.step_limit().stability_bound_by == "bond stiffness of " + both + " (number 2 of 2)");
+  };
+  const auto beads = group<Bead>("beads", Mobile{}, Points<1>{{Vector<1>(1.0), Vector<1>(0.0)}}, 1.0);
+  check(scene<Leapfrog>(Box<1>::unbounded(), beads, bonds<Bead, Bead>(brittle, {{0, 1}}), bonds<Bead, Bead>(soft, {{0, 1}})), "beads - beads");
+  check(scene<Leapfrog>(Box<1>::unbounded(), beads, bonds<Bead, Bead>(brittle, {{1, 0}}), bonds<Bead, Bead>(soft, {{1, 0}})), "beads - beads");
+  check(scene<Leapfrog>(Box<1>::unbounded(), beads, group<Post>("post", Frozen<1>{}, Points<1>{{Vector<1>(-1.0)}}, 1.0), bonds<Post, Bead>(brittle, {{0, 0}, {0, 1, 1.0, 0.01}}), bonds<Post, Bead>(soft, {{0, 0}})),
+        "post - beads");
 }
 
 // ---- Bonds that turn, and the step --------------------------------------------------------------------------------------------------

@@ -154,6 +154,71 @@ TEST_CASE("a scene that no law bounds needs a time step") {
   CHECK(scene.group<Solid>().positions()[0] == Vector<2>(1.0, -2.0));  // free flight, exact in binary
 }
 
+namespace {
+
+/// Bounds the step by `bound` [s] until particles are faster than `calm` [m/s], then by what is no number.
+struct Moody {
+  using reads = Fields<>;
+  using writes = Fields<field::Acceleration>;
+  static constexpr bool uses_velocity = false;
+  double bound, calm;
+  [[nodiscard]] double cutoff() const { return 1.0; }
+  void add(const auto&, const auto&, const auto&, auto&) const {}
+  void step_limits(const sweep::StepState& state, sweep::StepLimit& limit) const { limit.require_below(state.speed > calm ? not_a_number : bound, "mood"); }
+};
+void validate(const Moody&) {}
+
+auto moody(const Moody& law) {
+  return simulation::scene<integrator::Leapfrog>(geometry::Box<2>::unbounded(), group<Solid>("dust", Mobile{}, geometry::Points<2>{.positions = {{0.0, 0.0}, {0.5, 0.0}}}, 1.0),
+                                                 interaction<Solid, Solid>(law), forced_by<Solid>(forcing::Constant<2>{.uniform_acceleration = {{1.0, 0.0}}}));
+}
+/// Bonds and drag that say of themselves what they are told.
+struct Stated {
+  double stiffness, damping;
+  auto tension(const auto& bond) const { return 0.0 * bond.length_rate; }
+  double largest_stiffness() const { return stiffness; }
+  double largest_damping() const { return damping; }
+};
+void validate(const Stated&) {}
+struct StatedDrag {
+  double rate;
+  [[nodiscard]] Components<2, double> acceleration(const auto&) const { return {{0.0, 0.0}}; }
+  [[nodiscard]] double damping_rate(double) const { return rate; }
+};
+void validate(const StatedDrag&) {}
+
+auto stated(const Stated& bond, const StatedDrag& drag) {
+  return simulation::scene<integrator::Leapfrog>(geometry::Box<2>::unbounded(), group<Solid>("body", Mobile{}, geometry::Points<2>{.positions = {{0.0, 0.0}, {1.0, 0.0}}}, 1.0),
+                                                 bonds<Solid, Solid>(bond, {{0, 1}}), forced_by<Solid>(drag));
+}
+
+}  // namespace
+
+TEST_CASE("a bound of the time step that is no number >= 0 is refused, and its law named: before a run, and in it whether the step is given or chosen") {
+  CHECK_THROWS_WITH_AS(moody({not_a_number, 10.0}).run({.until = 1.0}), "bound of the time step by mood must be >= 0 s, got nan", ParameterError);
+  CHECK_THROWS_WITH_AS(moody({-1.0, 10.0}).run({.until = 1.0, .time_step = 0.1}), "bound of the time step by mood must be >= 0 s, got -1", ParameterError);
+  for (const double step : {0.0, 0.01}) {
+    auto scene = moody({0.01, 1.0});  // faster from t = 1 s on
+    try {
+      scene.run({.until = 5.0, .time_step = step, .check_every = 10});
+      FAIL("it ran");
+    } catch (const SimulationError& error) {
+      CHECK(std::string(error.what()).starts_with("dmp: bound of the time step by mood must be >= 0 s, got nan at t = "));
+      CHECK(error.where.time > 0.99);
+      CHECK(error.where.time < 1.2);
+      CHECK(error.where.step == scene.step());
+    }
+  }
+}
+
+TEST_CASE("a stiffness or a rate of damping that a law states as negative, or as no number, is refused with whose it is") {
+  CHECK_THROWS_WITH_AS((void)stated({not_a_number, 1.0}, {1.0}).step_limit(), "bonds of body - body: largest_stiffness must be >= 0 N/m, got nan", ParameterError);
+  CHECK_THROWS_WITH_AS((void)stated({-2.0, 1.0}, {1.0}).step_limit(), "bonds of body - body: largest_stiffness must be >= 0 N/m, got -2", ParameterError);
+  CHECK_THROWS_WITH_AS((void)stated({1.0, not_a_number}, {1.0}).step_limit(), "bonds of body - body: largest_damping must be >= 0 N s/m, got nan", ParameterError);
+  CHECK_THROWS_WITH_AS((void)stated({1.0, 1.0}, {-1.0}).step_limit(), "drag on body: damping_rate must be >= 0 1/s, got -1", ParameterError);
+  CHECK(stated({1.0, 1.0}, {1.0}).step_limit().stable_time_step > 0.0);
+}
+
 TEST_CASE("sub-stepped bonds that need more sub-steps than anybody waits for are refused") {
   const geometry::Points<2> two{.positions = {{0.0, 0.0}, {1.0, 0.0}}};
   auto scene = simulation::scene<integrator::Leapfrog>(geometry::Box<2>::unbounded(), group<Solid>("body", Mobile{}, two, 1.0),

@@ -62,6 +62,7 @@ class BondList {
   /// `same_group`: both ends lie in this group; if not, `own_is_j` picks the end that does. `pack` entries make a whole pack.
   void build(const Blocks& blocks, std::span<const Bond> bonds, bool same_group, bool own_is_j, std::size_t pack, Strides strides) {
     strides_ = strides;
+    same_group_ = same_group;
     const std::size_t particles = blocks.end(blocks.size() - 1);
     std::vector<std::uint32_t> block_of(particles);
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -80,13 +81,7 @@ class BondList {
     };
     std::vector<std::uint32_t> count(particles, 0);
     each([&count](std::uint32_t own, std::uint32_t, bool, const Bond&) { ++count[own]; });
-    sum_of_weights_.assign(particles, 0.0);
-    bool weighted = false;
-    for (const Bond& bond : bonds) {
-      if (same_group || !own_is_j) sum_of_weights_[bond.i] += bond.weight;
-      if (same_group || own_is_j) sum_of_weights_[bond.j] += bond.weight;
-      weighted = weighted || bond.weight != 1.0;
-    }
+    const bool weighted = std::any_of(bonds.begin(), bonds.end(), [](const Bond& bond) { return bond.weight != 1.0; });
     offset_.assign(particles + 1, 0);
     for (std::size_t i = 0; i < particles; ++i)
       offset_[i + 1] = offset_[i] + static_cast<std::uint32_t>((count[i] + pack - 1) / pack * pack);
@@ -147,7 +142,7 @@ class BondList {
   /// Row of the partner of entry k of particle i; and whether it lists a bond within a block, which nobody else does.
   [[nodiscard]] std::size_t partner_of(std::size_t i, std::size_t k) const noexcept { return partner_[offset_[i] + k] / strides_.records; }
   [[nodiscard]] bool is_listed_once(std::size_t i, std::size_t k) const noexcept {
-    return reaction_[offset_[i] + k] / strides_.sums == partner_of(i, k);
+    return same_group_ && reaction_[offset_[i] + k] / strides_.sums == partner_of(i, k);
   }
   /// Entries that are bonds.
   [[nodiscard]] std::size_t whole() const noexcept {
@@ -182,8 +177,16 @@ class BondList {
             weight_.data() + weight_step_ * first,
             weight_step_};
   }
-  /// Sum of the weights of the bonds of particle i, wherever they are listed; also of those that have broken.
-  [[nodiscard]] double sum_of_weights(std::size_t i) const noexcept { return sum_of_weights_[i]; }
+  /// Sum of the weights of the bonds of particle i that have not broken, wherever they are listed. Looks through the whole list.
+  [[nodiscard]] double sum_of_weights(std::size_t i) const noexcept {
+    double sum = 0.0;
+    for (std::size_t row = 0; row + 1 < offset_.size(); ++row)
+      for (std::uint32_t entry = offset_[row]; entry < offset_[row + 1]; ++entry)
+        if (rest_length_[entry] >= 0.0 &&
+            (row == i || (partner_[entry] == strides_.records * i && is_listed_once(row, entry - offset_[row]))))
+          sum += weight_[weight_step_ * entry];
+    return sum;
+  }
   [[nodiscard]] bool empty() const noexcept { return partner_.empty(); }
   /// Entries of a block, what a sweep over it costs.
   [[nodiscard]] double entries(const Blocks& blocks, std::size_t block) const noexcept {
@@ -191,15 +194,16 @@ class BondList {
   }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return (offset_.size() + partner_.size() + reaction_.size()) * sizeof(std::uint32_t) +
-           (rest_length_.size() + weight_.size() + sum_of_weights_.size() + memory_.size() + length_.size()) * sizeof(double) +
+           (rest_length_.size() + weight_.size() + memory_.size() + length_.size()) * sizeof(double) +
            crosses_.size();
   }
 
  private:
   std::vector<std::uint32_t> offset_{0}, partner_, reaction_;
-  std::vector<double> rest_length_, weight_, sum_of_weights_, memory_, length_;
+  std::vector<double> rest_length_, weight_, memory_, length_;
   std::size_t weight_step_ = 0;
   Strides strides_;
+  bool same_group_ = false;
   std::vector<std::uint8_t> crosses_;
 };
 

@@ -11,6 +11,7 @@
 #include <dmp/core/require.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/forcing/concept.hpp>
+#include <dmp/integrator/leapfrog.hpp>
 #include <dmp/particles/mobility.hpp>
 #include <dmp/simulation/composition.hpp>
 #include <dmp/simulation/holds.hpp>
@@ -112,7 +113,7 @@ template <class Engine, class I>
 template <class Engine, class G>
 [[nodiscard]] std::string binding_bonds(const Engine& engine, const G& g, BondKind kind, std::size_t i, bool by_dashpot) {
   std::string name;
-  double most = 0.0;
+  double most = -1.0;  // bonds without stiffness hold a particle too, if they are under tension
   for_each_bonds_of(engine, g, kind, [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto&) {
     const double share = per_mass * (by_dashpot ? largest_damping(item.law) : item.law.largest_stiffness()) * list.sum_of_weights(i);
     if (share <= most) return;
@@ -228,7 +229,38 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
 
 }  // namespace detail
 
-/// Every law's bound of the time step for the present state: the smallest, and whose it is. `time` [s] as forcings see it.
+namespace detail {
+
+/// What laws of bonds and forcings say of themselves is what bounds are made of: ParameterError unless it is a number >= 0.
+template <class Engine, class Item>
+void check_stated_rates(const Engine& engine, const Item& item) {
+  const auto stated = [](const auto& whose, const char* what, double value, const char* unit) {
+    if (!(value >= 0.0)) throw ParameterError(whose() + ": " + what + " must be >= 0 " + unit + ", got " + to_text(value));
+  };
+  if constexpr (is_bonds<Item>) {
+    const auto whose = [&] { return "bonds of " + name_of_bonds(engine, item); };
+    stated(whose, "largest_stiffness", item.law.largest_stiffness(), "N/m");
+    stated(whose, "largest_damping", largest_damping(item.law), "N s/m");
+  }
+  if constexpr (is_forced<Item>)
+    engine.for_each_group([&](const auto& g) {
+      if constexpr (Item::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
+        std::apply(
+            [&](const auto&... law) {
+              const auto one = [&](const auto& l) {
+                if constexpr (requires { l.damping_rate(g.mass); })
+                  stated([&] { return "drag on " + g.name; }, "damping_rate", l.damping_rate(g.mass), "1/s");
+              };
+              (one(law), ...);
+            },
+            item.laws);
+    });
+}
+
+}  // namespace detail
+
+/// Every law's bound of the time step for the present state: the smallest, and whose it is. `time` [s] as forcings see it. ParameterError
+/// if what a law states is no bound.
 template <class Integrator, class Engine>
 [[nodiscard]] sweep::StepLimit find_step_limit(const Engine& engine, double time, bool without_substepped) {
   sweep::StepLimit limit;
@@ -245,6 +277,7 @@ template <class Integrator, class Engine>
   };
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
+    detail::check_stated_rates(engine, active.item);
     if constexpr (is_interaction<I>) {
       const std::size_t a = index_of(std::type_identity<typename I::A>{}), b = index_of(std::type_identity<typename I::B>{});
       limit.damping = limit.oscillation = limit.sound = 0.0;
@@ -268,8 +301,9 @@ template <class Integrator, class Engine>
   return limit;
 }
 
-/// Sub-steps of the sub-stepped bonds for a step of `dt` [s]: what the scene asks for, or as many as their own bound needs.
-template <class Integrator, class Engine>
+/// Sub-steps of the sub-stepped bonds for a step of `dt` [s]: what the scene asks for, or as many as their own bound needs. That is the
+/// leapfrog's whatever the integrator, for that is how the engine sub-steps.
+template <class Engine>
 [[nodiscard]] int substeps_for(const Engine& engine, double dt) {
   sweep::StepLimit fast;
   int asked = 0;
@@ -280,7 +314,7 @@ template <class Integrator, class Engine>
         asked = std::max(asked, active.item.substeps);
       }
   });
-  engine.for_each_group([&](const auto& g) { detail::limit_group<Integrator>(engine, g, 0.0, detail::BondKind::fast, {}, fast); });
+  engine.for_each_group([&](const auto& g) { detail::limit_group<integrator::Leapfrog>(engine, g, 0.0, detail::BondKind::fast, {}, fast); });
   const double needed = std::ceil(dt / (0.9 * fast.time_step));
   constexpr double most = 1e6;
   if (asked == 0 && !(needed <= most))

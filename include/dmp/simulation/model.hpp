@@ -73,6 +73,12 @@ class Model {
  public:
   using Groups = typename detail::Groups<detail::filter<detail::IsGroup, Item...>, KeepsRates, Precision, Item...>::type;
   static constexpr bool has_pairs = (is_interaction<Item> || ...);
+  static constexpr bool bonds_break = [] {
+    return ([] {
+      if constexpr (is_bonds<Item>) return bond::CanBreak<decltype(Item::law)>;
+      return false;
+    }() || ...);
+  }();
   static_assert(std::is_same_v<typename Precision::Real, double> || !(is_bonds<Item> || ...),
                 "dmp: bond laws are evaluated in double only: a scene with bonds needs precision::Double");
   static_assert(detail::all_different<detail::filter<detail::IsGroup, Item...>>, "dmp: two groups of the scene have the same tag");
@@ -273,12 +279,6 @@ class Model {
     });
   }
 
-  static constexpr bool bonds_break = [] {
-    return ([] {
-      if constexpr (is_bonds<Item>) return bond::CanBreak<decltype(Item::law)>;
-      return false;
-    }() || ...);
-  }();
   [[nodiscard]] std::size_t whole_bonds() const noexcept {  // of those that may break
     std::size_t whole = 0;
     for_each_item([&whole](const auto& active) {

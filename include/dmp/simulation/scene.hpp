@@ -37,7 +37,7 @@ struct RunReport {
   double particle_steps = 0.0;     ///< particles that evolve, times steps
   double time_step = 0.0;          ///< the last one [s]
   sweep::StepLimit limit;          ///< smallest bound met, and the law that set it
-  std::string step_bound_by;       ///< what set the step: a law, or the user within the bound of a law
+  std::string step_bound_by;       ///< what set the step: a law, or the user within the bound of a law, and beyond what resolves another
 };
 
 /// A composed simulation: groups, what they do to each other, an integrator, and what looks on. Made by `scene(...)`.
@@ -129,8 +129,8 @@ class Scene {
       while (begun || goes_further()) {
         if (!begun) {
           if (options.time_step == 0.0 && clock_.step % steps_between_choices == 0) {
-            const auto limit = find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
-            if (limit.time_step < report.limit.time_step) report.limit = limit;
+            const auto limit = bounds_by_now();
+            report.limit.include(limit);
             const bool is_bound = limit.time_step < std::numeric_limits<double>::infinity();
             if (!is_bound && !bonds_break)  // broken bonds need no bound, a body that has left a plane may meet it again
               throw SimulationError("no law of this scene bounds the time step any more; give one as time_step",
@@ -184,8 +184,10 @@ class Scene {
       report.time_step = clock_.time_step;
       report.step_bound_by = options.time_step == 0.0
                                  ? report.limit.bound_by
-                                 : "given, " + to_text(std::round(100.0 * clock_.time_step / report.limit.stable_time_step)) +
-                                       " % of the bound of " + report.limit.stability_bound_by;
+                                 : "given, " + share_of(report.limit.stable_time_step) + " of the bound of " +
+                                       report.limit.stability_bound_by;
+      if (options.time_step > report.limit.time_step)
+        report.step_bound_by += ", " + share_of(report.limit.time_step) + " of what resolves " + report.limit.bound_by;
     } catch (const SimulationError& error) {
       rescue(error);
       throw;
@@ -238,12 +240,7 @@ class Scene {
     }() || ...);
   }();
   static constexpr bool has_bonds = (is_bonds<Item> || ...);
-  static constexpr bool bonds_break = [] {
-    return ([] {
-      if constexpr (is_bonds<Item>) return bond::CanBreak<decltype(Item::law)>;
-      return false;
-    }() || ...);
-  }();
+  static constexpr bool bonds_break = Engine<Dim, Integrator, Precision, Item...>::bonds_break;
   static constexpr std::uint64_t steps_between_choices = bounds_jump ? 1 : 10;
   static constexpr bool has_substeps = Engine<Dim, Integrator, Precision, Item...>::has_substeps;
   struct Observer {
@@ -265,7 +262,7 @@ class Scene {
     const bool goes_on = dt == clock_.time_step && clock_.substeps > 0 && clock_.step % steps_between_choices != 0;
     clock_.choose(dt);
     if constexpr (has_substeps) {
-      if (!goes_on) clock_.substeps = static_cast<std::uint64_t>(substeps_for<Integrator>(engine_, dt));
+      if (!goes_on) clock_.substeps = static_cast<std::uint64_t>(substeps_for(engine_, dt));
       engine_.set_substeps(static_cast<int>(clock_.substeps));
     }
   }
@@ -300,10 +297,20 @@ class Scene {
   void take_snapshot() {
     if (!rescue_path_.empty()) last_good_.take(views_of(engine_), clock_);
   }
+  /// The bounds in mid-run. Of a state that is not finite the particle is named, of a law's bound that is none the law.
+  [[nodiscard]] sweep::StepLimit bounds_by_now() {
+    try {
+      return find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
+    } catch (const ParameterError& error) {
+      check_state(engine_, clock_);
+      throw SimulationError(error.what(), {clock_.time, clock_.step, "", -1, "", 0.0});
+    }
+  }
+  [[nodiscard]] std::string share_of(double bound) const { return to_text(std::round(100.0 * clock_.time_step / bound)) + " %"; }
   /// A step that the user gave must stay within the bounds as they change.
   void check_step(sweep::StepLimit& smallest) {
-    const auto limit = find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
-    if (limit.stable_time_step < smallest.stable_time_step) smallest = limit;
+    const auto limit = bounds_by_now();
+    smallest.include(limit);
     if (clock_.time_step > limit.stable_time_step)
       throw SimulationError(
           "the given time step is longer than " + to_text(limit.stable_time_step) + " s, by now the bound of " + limit.stability_bound_by,

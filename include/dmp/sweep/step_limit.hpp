@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <dmp/core/require.hpp>
 
 namespace dmp::sweep {
 
@@ -29,7 +30,7 @@ struct StepLimit {
   double oscillation = 0.0;  ///< omega^2 [1/s^2], with which laws make positions oscillate, all together
   double sound = 0.0;        ///< 1/the bound of sound [1/s]
 
-  /// Beyond `bound` the law is unstable.
+  /// Beyond `bound` the law is unstable. ParameterError if that is no bound: not a number, or negative.
   void require_below(double bound, const std::string& law) {
     resolve(bound, law);
     if (bound < stable_time_step) {
@@ -39,20 +40,34 @@ struct StepLimit {
   }
   /// A law that damps velocities at `rate` [1/s]: stable for rate dt < `most`, less what others damp.
   void damp(double rate, double most, const std::string& law) {
+    require_rate(rate, "1/s", law);
     damping += rate;
     if (rate > 0.0) require_below(most / rate, law);
   }
   /// A law that makes positions oscillate with omega^2 = `rate` [1/s^2]: stable for omega dt < `most`, less what others add.
   void oscillate(double rate, double most, const std::string& law) {
+    require_rate(rate, "1/s^2", law);
     oscillation += rate;
     if (rate > 0.0) require_below(most / std::sqrt(rate), law);
   }
   /// Beyond `bound` the law is badly resolved, though not unstable: steps chosen by the scene respect it, a user's own may exceed it.
   void resolve(double bound, const std::string& law) {
+    if (!(bound >= 0.0)) throw ParameterError("bound of the time step by " + law + " must be >= 0 s, got " + to_text(bound));
     if (bound < time_step) {
       time_step = bound;
       bound_by = law;
     }
+  }
+  /// The smaller of these and the other's bounds, whatever made them.
+  void include(const StepLimit& other) {
+    resolve(other.time_step, other.bound_by);
+    require_below(other.stable_time_step, other.stability_bound_by);
+  }
+
+ private:
+  static void require_rate(double rate, const char* unit, const std::string& law) {
+    if (!(rate >= 0.0))
+      throw ParameterError("rate by which " + law + " bounds the time step must be >= 0 " + unit + ", got " + to_text(rate));
   }
 };
 
