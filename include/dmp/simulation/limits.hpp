@@ -314,7 +314,8 @@ template <class Engine>
         asked = std::max(asked, active.item.substeps);
       }
   });
-  engine.for_each_group([&](const auto& g) { detail::limit_group<integrator::Leapfrog>(engine, g, 0.0, detail::BondKind::fast, {}, fast); });
+  engine.for_each_group(
+      [&](const auto& g) { detail::limit_group<integrator::Leapfrog>(engine, g, 0.0, detail::BondKind::fast, {}, fast); });
   const double needed = std::ceil(dt / (0.9 * fast.time_step));
   constexpr double most = 1e6;
   if (asked == 0 && !(needed <= most))
