@@ -186,10 +186,18 @@ struct StatedDrag {
   [[nodiscard]] double damping_rate(double) const { return rate; }
 };
 void validate(const StatedDrag&) {}
+/// A trap that is soft on the left, and on the right whatever it is told.
+struct StatedTrap {
+  double right;
+  [[nodiscard]] Components<2, double> acceleration(const auto&) const { return {{0.0, 0.0}}; }
+  [[nodiscard]] double stiffness(const auto& subject) const { return subject.position[0] > 0.5 ? right : 1.0; }
+};
+void validate(const StatedTrap&) {}
 
-auto stated(const Stated& bond, const StatedDrag& drag) {
+template <class Forcing>
+auto stated(const Stated& bond, const Forcing& forcing) {
   return simulation::scene<integrator::Leapfrog>(geometry::Box<2>::unbounded(), group<Solid>("body", Mobile{}, geometry::Points<2>{.positions = {{0.0, 0.0}, {1.0, 0.0}}}, 1.0),
-                                                 bonds<Solid, Solid>(bond, {{0, 1}}), forced_by<Solid>(drag));
+                                                 bonds<Solid, Solid>(bond, {{0, 1}}), forced_by<Solid>(forcing));
 }
 
 }  // namespace
@@ -212,11 +220,16 @@ TEST_CASE("a bound of the time step that is no number >= 0 is refused, and its l
 }
 
 TEST_CASE("a stiffness or a rate of damping that a law states as negative, or as no number, is refused with whose it is") {
-  CHECK_THROWS_WITH_AS((void)stated({not_a_number, 1.0}, {1.0}).step_limit(), "bonds of body - body: largest_stiffness must be >= 0 N/m, got nan", ParameterError);
-  CHECK_THROWS_WITH_AS((void)stated({-2.0, 1.0}, {1.0}).step_limit(), "bonds of body - body: largest_stiffness must be >= 0 N/m, got -2", ParameterError);
-  CHECK_THROWS_WITH_AS((void)stated({1.0, not_a_number}, {1.0}).step_limit(), "bonds of body - body: largest_damping must be >= 0 N s/m, got nan", ParameterError);
-  CHECK_THROWS_WITH_AS((void)stated({1.0, 1.0}, {-1.0}).step_limit(), "drag on body: damping_rate must be >= 0 1/s, got -1", ParameterError);
-  CHECK(stated({1.0, 1.0}, {1.0}).step_limit().stable_time_step > 0.0);
+  CHECK_THROWS_WITH_AS((void)stated({not_a_number, 1.0}, StatedDrag{1.0}).step_limit(), "bonds of body - body: largest_stiffness must be >= 0 N/m, got nan", ParameterError);
+  CHECK_THROWS_WITH_AS((void)stated({-2.0, 1.0}, StatedDrag{1.0}).step_limit(), "bonds of body - body: largest_stiffness must be >= 0 N/m, got -2", ParameterError);
+  CHECK_THROWS_WITH_AS((void)stated({1.0, not_a_number}, StatedDrag{1.0}).step_limit(), "bonds of body - body: largest_damping must be >= 0 N s/m, got nan", ParameterError);
+  CHECK_THROWS_WITH_AS((void)stated({1.0, 1.0}, StatedDrag{-1.0}).step_limit(), "drag on body: damping_rate must be >= 0 1/s, got -1", ParameterError);
+  CHECK(stated({1.0, 1.0}, StatedDrag{1.0}).step_limit().stable_time_step > 0.0);
+  CHECK_THROWS_WITH_AS((void)stated({1.0, 1.0}, StatedTrap{not_a_number}).step_limit(),
+                       "bound of the time step by stiffness of a forcing on body must be >= 0 s, got nan", ParameterError);
+  CHECK_THROWS_WITH_AS((void)stated({1.0, 1.0}, StatedTrap{-100.0}).step_limit(),
+                       "bound of the time step by stiffness of a forcing on body must be >= 0 s, got nan", ParameterError);
+  CHECK(stated({1.0, 1.0}, StatedTrap{4.0}).step_limit().stable_time_step > 0.0);
 }
 
 TEST_CASE("sub-stepped bonds that need more sub-steps than anybody waits for are refused") {

@@ -179,6 +179,11 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
       const double oscillation = Integrator::oscillation_limit / std::sqrt(squared), half = 0.5 * oscillation * per_damping;
       const bool has_springs = squared > 0.0;
       Shortest result{.where = i};
+      if (!(squared >= 0.0 && damping >= 0.0)) {  // refused below
+        result.bound = -1.0;
+        result.by = !(bonds >= 0.0) ? By::bond_springs : !(damping >= 0.0) ? By::bond_dashpots : By::forcing_springs;
+        return result;
+      }
       if (!has_springs && damping == 0.0) return result;
       result.bound = has_springs ? oscillation * (std::sqrt(half * half + 1.0) - half) : 1.0 / per_damping;
       if constexpr (requires { Integrator::coupled_limit; })
@@ -187,7 +192,6 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
           result.bound =
               std::min(result.bound, std::max(undamped, (damping + drag + pairs.damping) / (Integrator::coupled_damping * sound)));
         }
-      if (!(result.bound >= 0.0)) result.bound = 0.0;  // not a number: no step is short enough
       if (!has_springs || half >= 0.5)
         result.by = damping >= drag && damping >= pairs.damping ? By::bond_dashpots
                     : drag >= pairs.damping                     ? By::drags
@@ -223,7 +227,7 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
       case By::viscosities: law = "viscosity of " + g.name; break;
       case By::potentials: law = "pair potential of " + g.name; break;
     }
-    limit.require_below(shortest.bound, law);
+    limit.require_below(shortest.bound < 0.0 ? std::numeric_limits<double>::quiet_NaN() : shortest.bound, law);
   }
 }
 
