@@ -7,9 +7,16 @@
 Three things: where the steps of each bond law blow up (bond_limits.cpp), the error of Young's modulus of a ball of lattice (elastic_sphere)
 and that of the bulk modulus of random networks (amorphous_solid), both over their size. Errors do not depend on the machine. Run times are
 seconds of one processor in the program, which count on an idle machine only; some five minutes in all.
+
+With --full FOLDER instead: what the published sizes found, from FOLDER/NAME/result.json. Each NAME is the output of a run by hand, of
+minutes to an hour:
+
+    elastic_sphere --full --threads 1 --output FOLDER/elastic_sphere      (and core_shell_sphere, viscoelastic_sphere, amorphous_solid)
 """
 import csv
+import json
 import math
+import re
 import statistics
 import sys
 import tempfile
@@ -80,6 +87,33 @@ def limits(program):
     return "\n".join(lines)
 
 
+FULL = ("elastic_sphere", "viscoelastic_sphere", "viscoelastic_sphere_32", "core_shell_sphere", "amorphous_solid")
+CASES = {"HC-SS": "A10, A11", "SC-HS": "A12, A13", "plates": "plates differ in force"}  # of errors whose names do not begin with the case
+
+
+def full_table(folder):
+    """One line for each case of each run: how many bounds it has, how many hold, and the one that is nearest or missed by most."""
+    lines = ["| run | case | bounds that hold | nearest to its bound | value | bound |", "|---|---|---|---|---|---|"]
+    for run in FULL:
+        path = folder / run / "result.json"
+        if not path.exists():
+            continue
+        cases = {}
+        for name, error in json.loads(path.read_text())["errors"].items():
+            first = re.split("[ ,:]", name, maxsplit=1)[0]
+            cases.setdefault(CASES.get(first, first), []).append((name, error["value"], error["bound"]))
+        share = lambda one: abs(one[1]) / one[2] if one[2] > 0 else math.inf if one[1] else 0.0
+        for case in sorted(cases, key=lambda case: [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", case)]):
+            errors = cases[case]
+            name, value, bound = max(errors, key=share)
+            holds = sum(share(one) <= 1 for one in errors)
+            short = name.removeprefix(case).lstrip(",: ")
+            lines.append(f"| {run} | {case} | {holds} of {len(errors)} | {short} | {value:.3g} | {bound:.3g} |")
+    if len(lines) == 2:
+        raise Failure(f"{folder} holds no result.json of {', '.join(FULL)}")
+    return "\n".join(lines)
+
+
 def ball_table(points):
     lines = ["| R/l | beads | error of E | order | run time [s] |", "|---|---|---|---|---|"]
     for p in points:
@@ -118,8 +152,13 @@ def draw_errors(ball, nets, path):
 
 
 def write(options):
-    require_gnuplot()
     page = options.docs / "bonded-solids.md"
+    if options.full:
+        put_table(page, "full", full_table(options.full))
+        return
+    if not all((options.bond_limits, options.elastic_sphere, options.amorphous_solid)):
+        raise Failure("give all three programs, or --full")
+    require_gnuplot()
     put_table(page, "limits", limits(options.bond_limits))
     with tempfile.TemporaryDirectory() as folder:
         ball = balls(options.elastic_sphere, folder)
@@ -134,7 +173,8 @@ def main():
     parser = new_parser(__doc__)
     parser.add_argument("--docs", type=Path, required=True, help="folder of bonded-solids.md")
     for program in ("bond-limits", "elastic-sphere", "amorphous-solid"):
-        parser.add_argument(f"--{program}", type=Path, required=True, help="the program")
+        parser.add_argument(f"--{program}", type=Path, help="the program")
+    parser.add_argument("--full", type=Path, help="folder of results at full size; nothing else is done")
     run_script(parser, write)
 
 

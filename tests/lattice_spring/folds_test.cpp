@@ -78,7 +78,7 @@ Pressed press(int steps) {
 
 }  // namespace
 
-TEST_CASE("section 6: plates that approach by 1.3 l at once fold the layers they meet, which is seen, and lose force for good; by l/5 they do not") {
+TEST_CASE("section 6: plates that approach by 1.3 l at once fold the layers they meet, which is seen, and bear less; by l/5 they do not") {
   const Pressed slow = press(20), abrupt = press(3);
   CHECK(slow.folded == 0);
   CHECK(abrupt.folded > 0);

@@ -196,6 +196,27 @@ TEST_CASE("section 6: from D = -1/2, where uniform dilatation costs nothing, to 
   CHECK(relative_error(added, 1e-6 * SmallStrain<3>(block, {.stiffness = 1.0}).energy(shear)) < 1e-6);
 }
 
+TEST_CASE("section 6: with the paper's rule a cubic lattice flutters near nu = 1/2, not at 0.45: complex eigenvalues; else never") {
+  const Bar bar{{6, 6, 6}};
+  const auto body = bar.body();
+  std::vector<Eigen::Index> inner;  // the border is held
+  for (std::size_t i = 0; i < body.points.positions.size(); ++i) {
+    const auto& x = body.points.positions[i];
+    if (x.minCoeff() < 0.1 || x.maxCoeff() > 2.9) continue;
+    for (Eigen::Index d = 0; d < 3; ++d) inner.push_back(3 * static_cast<Eigen::Index>(i) + d);
+  }
+  const auto largest_growth = [&](double nu, Dispersion rule) {  // |Im/Re| of an eigenvalue
+    const SmallStrain<3> springs(body, springs_for(body, ElasticConstants<3>::from_young(1.0, nu), rule));
+    const Eigen::MatrixXd K = whole_matrix(springs)(inner, inner);
+    const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(K, false).eigenvalues();
+    CHECK(values.real().minCoeff() > 0.0);
+    return (values.imag().array() / values.real().array()).abs().maxCoeff();
+  };
+  for (const double nu : {-0.5, 0.45}) CHECK(largest_growth(nu, Dispersion::by_number) < 1e-9);
+  CHECK(largest_growth(0.49, Dispersion::by_number) > 0.01);
+  CHECK(largest_growth(0.49, Dispersion::energy_consistent) < 1e-9);
+}
+
 TEST_CASE("equilibrium: the displacements of loaded networks are those that elimination finds, with each dispersion and any supports") {
   const auto body = small_network();
   const auto& x = body.points.positions;

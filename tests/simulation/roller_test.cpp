@@ -104,7 +104,8 @@ void slide_and_fall() {
                                              forced_by<Beads>(forcing::Constant<2>{.uniform_acceleration = {{0.0, -9.81}}}));
   for (const double time : {0.1, 0.5, 1.0}) {
     scene.run({.until = time, .time_step = 0.01});
-    const Vector<2> x = scene.template group<Beads>().positions()[0] - start, v = scene.template group<Beads>().template get<field::Velocity>()[0];
+    const auto& bead = scene.template group<Beads>();
+    const Vector<2> x = bead.positions()[0] - start, v = bead.template get<field::Velocity>()[0];
     CHECK(std::fabs(x.dot(along) - clamp.motion.displacement(time)) < 1e-13);
     CHECK(std::fabs(v.dot(along) - clamp.motion.velocity(time)) < 1e-13);
     CHECK(std::fabs(x.dot(across) - 0.5 * g.dot(across) * time * time) < 1e-12);
@@ -144,8 +145,8 @@ Vector<2> swung_exactly() {
   constexpr int steps = 20000;
   constexpr double dt = 1.0 / steps;
   for (int n = 0; n < steps; ++n) {
-    const double t = n * dt, v1 = v, a1 = acceleration(t, y, v), v2 = v + 0.5 * dt * a1, a2 = acceleration(t + 0.5 * dt, y + 0.5 * dt * v1, v2),
-                 v3 = v + 0.5 * dt * a2, a3 = acceleration(t + 0.5 * dt, y + 0.5 * dt * v2, v3), v4 = v + dt * a3,
+    const double t = n * dt, v1 = v, a1 = acceleration(t, y, v), v2 = v + 0.5 * dt * a1,
+                 a2 = acceleration(t + 0.5 * dt, y + 0.5 * dt * v1, v2), v3 = v + 0.5 * dt * a2, a3 = acceleration(t + 0.5 * dt, y + 0.5 * dt * v2, v3), v4 = v + dt * a3,
                  a4 = acceleration(t + dt, y + dt * v3, v4);
     y += dt / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
     v += dt / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);

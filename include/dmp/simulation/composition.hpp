@@ -274,7 +274,8 @@ struct Compose {
                          unite<constants, derived, Fields<field::Position, field::Velocity>>>;
   using columns = unite<Fields<field::Position>, only_if<particles::is_mobile<Mobility>, field::Velocity, field::Acceleration>,
                         only_if<particles::is_driven<Mobility> || particles::is_roller<Mobility>, StartPosition, field::Velocity>,
-                        only_if<has_substeps, FastAcceleration>, state, rates, std::conditional_t<KeepsRates, typename AllPrevious<rates>::type, Fields<>>>;
+                        only_if<has_substeps, FastAcceleration>, state, rates,
+                        std::conditional_t<KeepsRates, typename AllPrevious<rates>::type, Fields<>>>;
   using record = std::conditional_t<has_pairs || has_bonds,
                                     unite<Fields<field::Position>, only_if<uses_velocity, field::Velocity>, subtract<reads, constants>>,
                                     Fields<>>;
