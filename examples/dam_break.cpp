@@ -246,14 +246,15 @@ constexpr std::array<Level, 20> marin{{{3, 0.2, 0.511}, {3, 0.3, 0.486}, {3, 0.4
                                        {2, 1.1, 0.158}, {1, 0.4, 0.046}, {1, 0.6, 0.119}, {1, 0.7, 0.131}, {1, 1.0, 0.179}, {1, 1.1, 0.186}}};
 constexpr std::array<double, 4> gauges{0.496, 0.992, 1.488, 2.638};  // x [m]; the box is between the first two, the last is in the reservoir
 
-void reservoir(int deep, double end, const io::OutputFolder& folder, example::Result& result) {
+/// The tank of the experiment is 1 m high and open. Here its walls may be higher, so that no splash leaves it.
+void reservoir(int deep, double end, double height, const io::OutputFolder& folder, example::Result& result) {
   constexpr double depth = 0.55;
   const double spacing = depth / deep;
   const auto whole = [spacing](double length) { return std::round(length / spacing) * spacing; };
   const double length = whole(3.22), breadth = whole(1.0), gate = whole(1.992);
   const geometry::Cubic<3> lattice{.spacing = spacing};
   const Vector<3> layers = Vector<3>::Constant(wall_layers * spacing);
-  const Cuboid<3> tank{.lower = {0.0, 0.0, 0.0}, .upper = {length, breadth, whole(1.0)}};
+  const Cuboid<3> tank{.lower = {0.0, 0.0, 0.0}, .upper = {length, breadth, whole(height)}};
   const Cuboid<3> box{.lower = {whole(0.6635), whole(0.2985), 0.0}, .upper = {whole(0.8245), whole(0.7015), whole(0.161)}};
   std::vector<Vector<3>> places;
   for (const double x : gauges) places.emplace_back(x, 0.5, 0.0);
@@ -297,7 +298,7 @@ int run(const example::Options& options) {
     return result.print(folder);
   }
   column(across, quick ? 5.0 : 12.0, folder, result);
-  reservoir(deep, quick ? 1.02 : full ? 3.0 : 1.2, folder, result);
+  reservoir(deep, quick ? 1.02 : full ? 3.0 : 1.2, full ? 3.0 : 1.0, folder, result);
   return result.print(folder);
 }
 
