@@ -23,7 +23,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from processes import draw, execute, new_parser, put_table, require_gnuplot, result_of, run_script
+from processes import Failure, draw, execute, new_parser, put_table, require_gnuplot, result_of, run_script
 
 BALLS = (8, 12, 16, 24, 32)    # R/l
 CUBES = (6, 8, 10, 14)        # edges [a0]
