@@ -164,7 +164,7 @@ void cubes(double edge, std::size_t seeds, bool to_the_end, const io::OutputFold
     }
   }
   for (const std::size_t v : {kL_tuned, ikL_tuned})  // told, not judged: a bound on time would be a test of the machine
-    std::printf("B12, %s of %zu springs%s: %.2f s on one thread (sheet, of 57,000 springs: at most %d s)\n", variant_name[v],
+    std::printf("B12, %s of %zu springs%s: %.2f s on one thread (specified for 57,000 springs: at most %d s)\n", variant_name[v],
                 states[0][v].springs, v == kL_tuned && to_the_end ? ", 200 solves" : "", wall[v], v == kL_tuned ? 2 : 10);
 
   // The worst seed of each. What has no sign goes from 0; what may lie anywhere in a range is given as distance from its middle.

@@ -30,7 +30,7 @@ constexpr double poisson_ratio = 0.25, density = 1000.0;
 constexpr double deepest = 0.1;  // delta/2R
 const bond::Harmonic spring{.stiffness = stiffness};
 
-/// The sheet's orientations of the lattice; plates are normal to z.
+/// The specification's orientations of the lattice; plates are normal to z.
 struct Orientation {
   std::string name;
   double w, x, y, z;
@@ -214,12 +214,12 @@ int run(const example::Options& options) {
       const std::string of = ", R = 32 l, " + row.q.name + ": ";
       for (std::size_t n = 0; n < 4; ++n) {
         const double ratio = 0.025 * static_cast<double>(n + 1);
-        std::printf("  F/(k l) at %4.1f %%: %8.3f, sheet %8.3f\n", 100.0 * ratio, force_at(found.curve, ratio) / (stiffness * radius / 32),
+        std::printf("  F/(k l) at %4.1f %%: %8.3f, independent solver %8.3f\n", 100.0 * ratio, force_at(found.curve, ratio) / (stiffness * radius / 32),
                     row.force[n]);
       }
       if (&row.q == &along_layers) {
         // A flat punch, no Hertz contact, whose E depends on which points are fitted: 1.14 of steps of 0.5 %, from the first one on.
-        std::printf("  E/E_theory %.3f from the same 8 points as the others, sheet 1.14\n", modulus(found, 32));
+        std::printf("  E/E_theory %.3f from the same 8 points as the others, independent solver 1.14\n", modulus(found, 32));
         continue;
       }
       result.error("A4" + of + "E/E_theory - 0.985", middle(modulus(found, 32), 0.95, 1.02), 0.035, "Hertz; 0.95 to 1.02");

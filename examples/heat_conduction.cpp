@@ -178,7 +178,7 @@ int run(const example::Options& options) {
   example::Result result{.example = "heat_conduction", .test_case = "HX-1, HX-2, HX-3"};
   const auto resolutions = options.resolutions({10, 20}, {10, 20, 40}, {10, 20, 40, 80});
   result.resolution = "up to " + std::to_string(resolutions.back()) + " rows per slab";
-  // L2, largest error and flux ratio of the sheet at 10, 20 and 40 rows; beyond that the errors halve at least
+  // L2, largest error and flux ratio of an independent solver at 10, 20 and 40 rows; beyond that the errors halve at least
   struct Table {
     int rows;
     std::array<double, 3> slabs_arithmetic, slabs_harmonic;

@@ -181,7 +181,7 @@ void linear_solid(const std::string& name, const lattice_spring::Body<3>& body, 
   std::fflush(stdout);
 }
 
-lattice_spring::Body<3> ordered(int beads_in_radius) {  // the sheet's orientation q1
+lattice_spring::Body<3> ordered(int beads_in_radius) {  // orientation q1 of the specification
   const double spacing = radius / beads_in_radius;
   const lattice_spring::CubicLattice lattice{
       .spacing = spacing, .orientation = Eigen::Quaterniond(-0.467424, -0.047608, 0.829916, -0.300813).normalized().toRotationMatrix()};
@@ -191,7 +191,8 @@ lattice_spring::Body<3> ordered(int beads_in_radius) {  // the sheet's orientati
 int run(const example::Options& options) {
   const io::OutputFolder folder(options.output);
   example::Result result{.example = "viscoelastic_sphere", .test_case = "A8a, A8b, A8c, A9"};
-  const bool quick = options.size == example::Size::quick, full = options.size == example::Size::full, alone = options.resolution > 0;
+  const bool full = options.size == example::Size::full, alone = options.resolution > 0;
+  const bool quick = options.size == example::Size::quick || (alone && !full);
   const int beads_in_radius = options.resolutions({10}, {10}, {16}).front();
   result.resolution = "R = " + std::to_string(beads_in_radius) + " spacings" + (quick || alone ? "" : "; a network of 5,921 beads");
   auto body = ordered(beads_in_radius);
@@ -227,6 +228,6 @@ int main(int argc, char** argv) {
   return example::guarded("viscoelastic_sphere", run,
                           example::options(argc, argv, "viscoelastic_sphere",
                                            "Balls of viscoelastic bonds between plates, loaded and held, without inertia (A8, A9). "
-                                           "Resolution: R/l of one ordered ball; without --quick linear solids too.",
+                                           "Resolution: R/l of one ordered ball, slowly; with --full fast, and of linear solids, too.",
                                            {.least_resolution = 6}));
 }

@@ -7,6 +7,7 @@
 #include <dmp/simulation/engine.hpp>       // One time step.
 #include <dmp/simulation/forces.hpp>       // Sums over pairs and bonds.
 #include <dmp/simulation/group.hpp>        // One group: columns, records, ghosts, grid.
+#include <dmp/simulation/holds.hpp>        // How bonds hold each particle, for the bound of the step.
 #include <dmp/simulation/items.hpp>        // group, interaction, bonds, material, forced_by: what a scene is made of.
 #include <dmp/simulation/limits.hpp>       // Bounds of the time step, from all laws of a scene.
 #include <dmp/simulation/lists.hpp>        // Who is near whom, and when lists are worn.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <Eigen/Eigenvalues>
@@ -68,8 +69,8 @@ template <class Law>
 }
 
 /// Adds what the bonds of one item do to the particles of a group as they stand now, for each unit of mass `per_mass` = f/m: f k/m n n^T to
-/// the springs, f c/m n n^T to the dashpots, and across a bond under tension f T/(m r) (1 - n n^T) to the springs. A bond of length zero may
-/// act in any direction.
+/// the springs, f c/m n n^T to the dashpots, and across a bond under tension f T/(m r) (1 - n n^T) to the springs. A bond of length zero, or
+/// of one whose square overflows, may act in any direction.
 template <class Law, class G, class Partners>
 void add_holds(const Law& law, double per_mass, const neighbours::BondList& list, const G& g, const Partners& partners,
                const geometry::Box<G::Dim>& box, Holds<G::Dim>& springs, Holds<G::Dim>& dashpots) {
@@ -101,7 +102,7 @@ void add_holds(const Law& law, double per_mass, const neighbours::BondList& list
       seen.length = sqrt(squared);
       seen.rest_length = Lanes::load(bonds.rest_length + k);
       if constexpr (bond::HasMemory<Law>) seen.memory = Lanes::load(list.memories_of(i) + k);
-      const auto is_bond = seen.rest_length >= 0.0, has_length = squared > 0.0;
+      const auto is_bond = seen.rest_length >= 0.0, has_length = squared > 0.0 && squared <= std::numeric_limits<double>::max();
       const Lanes weight = select(is_bond, Lanes::load(bonds.weight + k * bonds.weight_step), 0.0);
       const Lanes inverse = select(has_length, 1.0 / squared, 0.0), tension = law.tension(seen);
       const Lanes across = select(is_bond && has_length, per_mass * weight * max(tension, 0.0) * (seen.length * inverse), 0.0);

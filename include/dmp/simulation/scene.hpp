@@ -108,7 +108,7 @@ class Scene {
     RunReport report;
     try {
       prepare();
-      report.limit = find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
+      report.limit = first_bounds();
       const double first_step = options.time_step > 0.0 ? options.time_step : options.safety * report.limit.time_step;
       if (!(first_step < std::numeric_limits<double>::infinity()))
         throw ParameterError("scene: no law of this scene bounds the time step; give one as time_step");
@@ -268,11 +268,7 @@ class Scene {
   }
   /// Bonds turn and break, so that other sub-steps may be needed in a step that stays as it was given.
   void reconsider_substeps() {
-    try {
-      choose_step(clock_.time_step);
-    } catch (const ParameterError& error) {
-      throw SimulationError(error.what(), {clock_.time, clock_.step, "", -1, "", 0.0});
-    }
+    in_run([this] { choose_step(clock_.time_step); });
   }
   /// Multiples of the observer's interval that have passed.
   [[nodiscard]] double due(const Observer& observer) const {
@@ -297,14 +293,27 @@ class Scene {
   void take_snapshot() {
     if (!rescue_path_.empty()) last_good_.take(views_of(engine_), clock_);
   }
-  /// The bounds in mid-run. Of a state that is not finite the particle is named, of a law's bound that is none the law.
-  [[nodiscard]] sweep::StepLimit bounds_by_now() {
+  /// The bounds when a run begins. Of a state that is not finite the particle is named, of a law's bound that is none the law.
+  [[nodiscard]] sweep::StepLimit first_bounds() {
     try {
       return find_step_limit<Integrator>(engine_, clock_.time, has_substeps);
+    } catch (const ParameterError&) {
+      check_state(engine_, clock_);
+      throw;
+    }
+  }
+  /// The same of function() in mid-run, where the user's parameters are not to blame.
+  template <class Function>
+  auto in_run(const Function& function) {
+    try {
+      return function();
     } catch (const ParameterError& error) {
       check_state(engine_, clock_);
       throw SimulationError(error.what(), {clock_.time, clock_.step, "", -1, "", 0.0});
     }
+  }
+  [[nodiscard]] sweep::StepLimit bounds_by_now() {
+    return in_run([this] { return find_step_limit<Integrator>(engine_, clock_.time, has_substeps); });
   }
   [[nodiscard]] std::string share_of(double bound) const { return to_text(std::round(100.0 * clock_.time_step / bound)) + " %"; }
   /// A step that the user gave must stay within the bounds as they change.
