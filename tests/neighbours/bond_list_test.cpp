@@ -195,30 +195,6 @@ TEST_CASE("a net at random: with its reactions every bond acts once on either en
     }
 }
 
-TEST_CASE("the weights of the bonds of a particle add up wherever they are listed; without any they are as many as the bonds") {
-  std::vector<Bond> bonds{{0, 1, 0.1}, {3, 1, 0.2}, {1, 2, 0.3}};
-  using Sums = std::vector<double>;
-  const auto sums = [&bonds](std::size_t count, bool same_group, bool own_is_j, const std::vector<std::size_t>& bounds) {
-    BondList list;
-    list.build(blocks_of(bounds), bonds, same_group, own_is_j, 4, {});
-    Sums result;
-    for (std::size_t i = 0; i < count; ++i) result.push_back(list.sum_of_weights(i));
-    return result;
-  };
-  for (const std::size_t middle : {1u, 2u}) {
-    CHECK(sums(4, true, false, {0, middle, 4}) == Sums{1, 3, 1, 1});
-    CHECK(sums(4, false, false, {0, middle, 4}) == Sums{1, 1, 0, 1});
-    CHECK(sums(3, false, true, {0, middle, 3}) == Sums{0, 2, 1});
-  }
-  bonds[0].weight = 0.5;
-  bonds[2].weight = 0.25;
-  for (const std::size_t middle : {1u, 2u}) {
-    CHECK(sums(4, true, false, {0, middle, 4}) == Sums{0.5, 1.75, 0.25, 1});
-    CHECK(sums(4, false, false, {0, middle, 4}) == Sums{0.5, 0.25, 0, 1});
-    CHECK(sums(3, false, true, {0, middle, 3}) == Sums{0, 1.5, 0.25});
-  }
-}
-
 TEST_CASE("every bond brings its weight, at whatever end it is listed; where all are one, one pack is read again and again") {
   std::vector<Bond> bonds{{0, 1, 0.1, 0.5}, {3, 1, 0.2}, {1, 2, 0.3, 0.25}};
   for (const bool weighted : {true, false})
@@ -282,7 +258,6 @@ TEST_CASE("no bonds: empty lists") {
     CHECK(list.entries(blocks, 0) == 0.0);
     for (std::size_t i = 0; i < particles; ++i) {
       CHECK(list.of(i).size == 0);
-      CHECK(list.sum_of_weights(i) == 0.0);
     }
   }
   std::vector<Bond> none;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <string>
 #include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
@@ -11,6 +12,7 @@
 #include <dmp/integrator.hpp>
 #include <dmp/simulation.hpp>
 #include "support/random.hpp"
+#include "support/threads.hpp"
 
 using namespace dmp;
 using namespace dmp::simulation;
@@ -726,4 +728,51 @@ TEST_CASE("beside sub-stepped bonds the other forces act in full, whatever the i
     return pair.template group<Stiff>().template get<field::Velocity>()[0][0];
   };
   CHECK(fallen(SymplecticEuler{}) == doctest::Approx(-10.0).epsilon(1e-12));
+}
+
+namespace {
+/// A rope that is pulled by a winch: the same force at any length.
+struct Taut {
+  double pull;
+  auto tension(const auto& bond) const { return 0.0 * bond.length + pull; }
+  double largest_stiffness() const { return 0.0; }
+};
+[[maybe_unused]] void validate(const Taut&) {}
+}  // namespace
+
+TEST_CASE("a bound of bonds is named after those that by themselves hold the particle most, by stiffness or by tension") {
+  const geometry::Points<2> two{.positions = {{0.0, 0.0}, {1.0, 0.0}}};
+  const auto bound_by = [&two](double stiffness, double pull) {
+    auto scene = simulation::scene<integrator::Leapfrog>(geometry::Box<2>::unbounded(), group<Stiff>("b", Mobile{}, two, 1.0),
+                                                         bonds<Stiff, Stiff>(bond::Harmonic{.stiffness = stiffness}, {{0, 1}}), bonds<Stiff, Stiff>(Taut{pull}, {{0, 1}}));
+    return scene.step_limit().stability_bound_by;
+  };
+  CHECK(bound_by(0.1, 100.0) == "bond stiffness of b - b (number 2 of 2)");
+  CHECK(bound_by(100.0, 0.1) == "bond stiffness of b - b (number 1 of 2)");
+}
+
+TEST_CASE("the bound of a flat sheet of equal bonds in space is the same bits for 1 to 4 threads") {
+  constexpr int n = 96;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    geometry::Points<3> points;
+    std::vector<neighbours::Bond> list;
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<double> jitter(-3e-10, 3e-10);
+    const auto row = [](int i, int j) { return static_cast<std::uint32_t>(j * n + i); };
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        points.positions.emplace_back(i + 0.5 * j + jitter(generator), std::sqrt(0.75) * j + jitter(generator), 0.0);
+        if (i + 1 < n) list.push_back({row(i, j), row(i + 1, j), 1.0});
+        if (j + 1 < n) list.push_back({row(i, j), row(i, j + 1), 1.0});
+        if (i > 0 && j + 1 < n) list.push_back({row(i, j), row(i - 1, j + 1), 1.0});
+      }
+    std::vector<double> bound;
+    for (int threads = 1; threads <= 4; ++threads) {
+      const test::Threads some(threads);
+      auto scene = simulation::scene<integrator::Leapfrog>(geometry::Box<3>::unbounded(), group<Stiff>("sheet", Mobile{}, points, 1.0),
+                                                           bonds<Stiff, Stiff>(bond::Harmonic{.stiffness = 1.7}, list));
+      bound.push_back(scene.step_limit().stable_time_step);
+    }
+    CHECK(bound == std::vector<double>(4, bound[0]));
+  }
 }

@@ -226,9 +226,9 @@ TEST_CASE("a stiffness or a rate of damping that a law states as negative, or as
   CHECK_THROWS_WITH_AS((void)stated({1.0, 1.0}, StatedDrag{-1.0}).step_limit(), "drag on body: damping_rate must be >= 0 1/s, got -1", ParameterError);
   CHECK(stated({1.0, 1.0}, StatedDrag{1.0}).step_limit().stable_time_step > 0.0);
   CHECK_THROWS_WITH_AS((void)stated({1.0, 1.0}, StatedTrap{not_a_number}).step_limit(),
-                       "bound of the time step by stiffness of a forcing on body must be >= 0 s, got nan", ParameterError);
-  CHECK_THROWS_WITH_AS((void)stated({1.0, 1.0}, StatedTrap{-100.0}).step_limit(),
-                       "bound of the time step by stiffness of a forcing on body must be >= 0 s, got nan", ParameterError);
+                       "stiffness of a forcing on body must be >= 0 N/m, got nan", ParameterError);
+  CHECK_THROWS_WITH_AS((void)stated({100.0, 1.0}, StatedTrap{-1.0}).step_limit(),  // outweighed by the bond
+                       "stiffness of a forcing on body must be >= 0 N/m, got -1", ParameterError);
   CHECK(stated({1.0, 1.0}, StatedTrap{4.0}).step_limit().stable_time_step > 0.0);
 }
 

@@ -171,3 +171,27 @@ TEST_CASE("a pendulum on rollers swings as its equation says, with bonds, bonds 
   check(implicit_bonds<Left, Beads>(law, tie), 2.0);
   check(substepped_bonds<Left, Beads>(law, tie), 1.0);
 }
+
+namespace {
+/// A motion of a user's own, at rest.
+struct Rail {
+  Required<Components<2, double>> direction;
+  [[nodiscard]] Vector<2> position(const Vector<2>& start, double) const { return start; }
+  [[nodiscard]] Vector<2> velocity(const Vector<2>&, double) const { return Vector<2>::Zero(); }
+};
+void validate(const Rail&) {}
+}  // namespace
+
+TEST_CASE("a roller needs a direction of length 1, along or across each periodic direction of the box") {
+  const auto on = [](double x, double y, bool periodic) {
+    return scene<integrator::Leapfrog>(
+        geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {periodic, false}},
+        group<Beads>("trolley", Roller{Rail{.direction = {{x, y}}}}, geometry::Points<2>{{{0.5, 0.5}}}, 1.0), forced_by<Beads>(forcing::Drag{.coefficient = 1.0}));
+  };
+  CHECK_THROWS_WITH_AS((void)on(2.0, 0.0, false), "group trolley: direction of a Roller must have length 1, its square, got 4", ParameterError);
+  CHECK_THROWS_WITH_AS((void)on(0.6, 0.8, true), "group trolley: direction of a Roller must lie along or across each periodic direction, got component 0.6 along one",
+                       ParameterError);
+  CHECK_NOTHROW((void)on(0.6, 0.8, false));
+  CHECK_NOTHROW((void)on(1.0, 0.0, true));
+  CHECK_NOTHROW((void)on(0.0, 1.0, true));
+}

@@ -8,7 +8,7 @@
 namespace dmp::forcing {
 
 /// Motion along a line that starts smoothly, goes on at constant speed, and holds; for planes, plates, prescribed ends.
-///   velocity(t) = (V/2)(1 - cos(pi t/T)) for 0 < t < T, V until `hold_from`, 0 from then on  [m/s];  displacement(t): its integral [m]
+///   velocity(t) = (V/2)(1 - cos(pi t/T)) for 0 <= t < T, V until `hold_from`, 0 from then on  [m/s];  displacement(t): its integral [m]
 /// T = 0 is an abrupt start, which sends a wave through a body; the stop always is. T of five transits of sound makes a slow start.
 struct Ramp {
   Required<double> speed;                                      ///< V [m/s], of either sign
@@ -21,7 +21,7 @@ struct Ramp {
     return speed * (t - 0.5 * start_up);
   }
   [[nodiscard]] double velocity(double time) const noexcept {
-    if (time <= 0.0 || time >= hold_from) return 0.0;
+    if (time < 0.0 || time >= hold_from) return 0.0;
     return time < start_up ? 0.5 * speed * (1.0 - std::cos(std::numbers::pi * time / start_up)) : double{speed};
   }
 };

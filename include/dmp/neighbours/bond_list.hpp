@@ -177,16 +177,6 @@ class BondList {
             weight_.data() + weight_step_ * first,
             weight_step_};
   }
-  /// Sum of the weights of the bonds of particle i that have not broken, wherever they are listed. Looks through the whole list.
-  [[nodiscard]] double sum_of_weights(std::size_t i) const noexcept {
-    double sum = 0.0;
-    for (std::size_t row = 0; row + 1 < offset_.size(); ++row)
-      for (std::uint32_t entry = offset_[row]; entry < offset_[row + 1]; ++entry)
-        if (rest_length_[entry] >= 0.0 &&
-            (row == i || (partner_[entry] == strides_.records * i && is_listed_once(row, entry - offset_[row]))))
-          sum += weight_[weight_step_ * entry];
-    return sum;
-  }
   [[nodiscard]] bool empty() const noexcept { return partner_.empty(); }
   /// Entries of a block, what a sweep over it costs.
   [[nodiscard]] double entries(const Blocks& blocks, std::size_t block) const noexcept {

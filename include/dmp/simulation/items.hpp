@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -38,6 +39,11 @@ template <class Tag, class Mobility, int Dim>
 [[nodiscard]] GroupItem<Tag, Mobility, Dim> group(std::string name, Mobility mobility, geometry::Points<Dim> points, double mass) {
   require_positive(("group " + name + ": mass of a particle").c_str(), mass, "kg");
   if constexpr (requires { mobility.motion; }) check_parameters(mobility.motion);
+  if constexpr (particles::is_roller<Mobility>) {
+    const auto& along = mobility.motion.direction.value;
+    const double squared = dot(along, along);
+    require(std::fabs(squared - 1.0) <= 1e-12, ("group " + name + ": direction of a Roller must have length 1, its square").c_str(), squared);
+  }
   if (points.positions.empty()) throw ParameterError("group " + name + ": at least one particle is needed, got none");
   return {std::move(name), std::move(mobility), std::move(points), mass};
 }
@@ -49,7 +55,7 @@ struct Interaction {
   using B = B_;
   using reads = unite<typename Law::reads...>;
   using writes = unite<typename Law::writes...>;
-  static constexpr bool uses_velocity = (Law::uses_velocity || ...);
+  static constexpr bool uses_velocity = (Law::uses_velocity || ...), collides = (sweep::is_potential<Law> || ...);
   std::tuple<Law...> laws;
   int excluded_reach = 0;
 

@@ -109,13 +109,20 @@ template <class Engine, class I>
   return count == 1 ? name : name + " (number " + std::to_string(number) + " of " + std::to_string(count) + ")";
 }
 
-/// The bonds that contribute most to lambda or omega^2 of particle i.
+/// The bonds that by themselves give particle i the largest lambda or omega^2.
 template <class Engine, class G>
 [[nodiscard]] std::string binding_bonds(const Engine& engine, const G& g, BondKind kind, std::size_t i, bool by_dashpot) {
   std::string name;
-  double most = -1.0;  // bonds without stiffness hold a particle too, if they are under tension
-  for_each_bonds_of(engine, g, kind, [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto&) {
-    const double share = per_mass * (by_dashpot ? largest_damping(item.law) : item.law.largest_stiffness()) * list.sum_of_weights(i);
+  double most = -1.0;
+  int items = 0;
+  for_each_bonds_of(engine, g, kind, [&items](const auto&...) { ++items; });
+  for_each_bonds_of(engine, g, kind, [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto& partners) {
+    double share = 0.0;
+    if (items > 1) {
+      Holds<G::Dim> springs, dashpots;
+      add_holds(item.law, per_mass, list, g, partners, engine.box(), springs, dashpots);
+      share = by_dashpot ? dashpots.largest(i) : springs.largest(i);
+    }
     if (share <= most) return;
     most = share;
     name = name_of_bonds(engine, item);
@@ -158,7 +165,12 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
                     if (kind == BondKind::fast) return;
                     forced.resize(g.size(), 0.0);
                     for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
-                      for (std::size_t i = first; i < last; ++i) forced[i] += l.stiffness(engine.subject(g, i, time, 0.0)) / g.mass;
+                      for (std::size_t i = first; i < last; ++i) {
+                        const double stiffness = l.stiffness(engine.subject(g, i, time, 0.0));
+                        if (!(stiffness >= 0.0))
+                          throw ParameterError("stiffness of a forcing on " + g.name + " must be >= 0 N/m, got " + to_text(stiffness));
+                        forced[i] += stiffness / g.mass;
+                      }
                     });
                   }
                 };
@@ -203,15 +215,24 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
       return result;
     };
     if (springs.empty() && dashpots.empty() && forced.empty() && !(pairs.oscillation > 0.0)) return;
-    // Eigenvalues only where they may matter. The margin, of rounding, keeps that from depending on how rows are divided among threads.
+    // Eigenvalues only where they may matter. The margin, of the solver's accuracy (1e-8), keeps that from depending on how rows are divided
+    // among threads.
+    const auto largest = [](const Holds<G::Dim>& holds, std::size_t i) {
+      if constexpr (G::Layout::has_bonds) return holds.largest(i);
+      else return 0.0;
+    };
+    const auto at_most = [](const Holds<G::Dim>& holds, std::size_t i) {
+      if constexpr (G::Layout::has_bonds) return holds.at_most(i);
+      else return 0.0;
+    };
     const auto shortest = merge_ranges(
         g.blocks.ranges(), Shortest{},
         [&](std::size_t first, std::size_t last) {
           Shortest part;
           for (std::size_t i = first; i < last; ++i) {
             const bool no_sound = !(pairs.sound > 0.0);  // beside sound, dashpots may allow a longer step
-            if (no_sound && bound_of(i, springs.at_most(i), dashpots.at_most(i)).bound > (1.0 + 1e-9) * part.bound) continue;
-            const auto one = bound_of(i, springs.largest(i), dashpots.largest(i));
+            if (no_sound && bound_of(i, at_most(springs, i), at_most(dashpots, i)).bound > (1.0 + 1e-6) * part.bound) continue;
+            const auto one = bound_of(i, largest(springs, i), largest(dashpots, i));
             if (one.bound < part.bound) part = one;
           }
           return part;

@@ -94,6 +94,15 @@ class Model {
     validate(box);
     for (int d = 0; d < Dim; ++d)
       periods_[static_cast<std::size_t>(d)] = box.periodic[static_cast<std::size_t>(d)] ? box.upper[d] - box.lower[d] : 0.0;
+    for_each_group([this](const auto& g) {
+      if constexpr (particles::is_roller<typename std::remove_cvref_t<decltype(g)>::Mobility>)
+        for (int d = 0; d < Dim; ++d) {  // through an oblique face a particle would change its rail
+          const double along = std::fabs(g.mobility.motion.direction.value[d]);
+          if (periods_[static_cast<std::size_t>(d)] > 0.0 && along > 1e-12 && along < 1.0 - 1e-12)
+            throw ParameterError("group " + g.name + ": direction of a Roller must lie along or across each periodic direction, got component " +
+                                 to_text(along) + " along one");
+        }
+    });
     for_each_item([&](auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>) prepare_bonds(active);

@@ -24,7 +24,7 @@ namespace dmp::simulation {
 struct RunOptions {
   Required<double> until;           ///< end of the run [s]
   double time_step = 0.0;  ///< [s], held against the laws' bounds as often as values are checked; 0: from the bounds, reconsidered every
-                           ///< 10 steps, with a viscosity of the shear rate every step
+                           ///< 10 steps, with a viscosity of the shear rate or a pair potential every step
   double safety = 0.9;              ///< fraction of the smallest bound that is taken when time_step is 0; 0 < safety <= 1
   std::uint64_t check_every = 100;  ///< steps between two checks of all values (finite, in the box)
 };
@@ -115,9 +115,9 @@ class Scene {
       if (first_step > report.limit.stable_time_step)
         throw ParameterError("scene: time_step must be <= " + to_text(report.limit.stable_time_step) + " s, the bound of " +
                              report.limit.stability_bound_by + ", got " + to_text(first_step));
-      const bool goes_on = options.time_step == 0.0 && clock_.automatic == 1 && clock_.time_step <= report.limit.stable_time_step;
-      choose_step(goes_on ? clock_.time_step : first_step);
+      const bool goes_on = options.time_step == 0.0 && clock_.automatic == 1 && clock_.time_step <= report.limit.time_step;
       clock_.automatic = options.time_step == 0.0 ? 1 : 0;
+      choose_step(goes_on ? clock_.time_step : first_step);
       engine_.refresh_frozen();
       check_state(engine_, clock_);
       check_materials(engine_, clock_, 0.0);
@@ -128,14 +128,14 @@ class Scene {
       bool begun = false, worn = false, bounds_checked = false;  // of the present state
       while (begun || goes_further()) {
         if (!begun) {
-          if (options.time_step == 0.0 && clock_.step % steps_between_choices == 0) {
+          if (options.time_step == 0.0 && clock_.step % steps_between_choices() == 0) {
             const auto limit = bounds_by_now();
             report.limit.include(limit);
             const bool is_bound = limit.time_step < std::numeric_limits<double>::infinity();
             if (!is_bound && !bonds_break)  // broken bonds need no bound, a body that has left a plane may meet it again
               throw SimulationError("no law of this scene bounds the time step any more; give one as time_step",
                                     {clock_.time, clock_.step, "", -1, "", 0.0});
-            choose_step(is_bound ? options.safety * limit.time_step : clock_.time_step);
+            in_run([&] { choose_step(is_bound ? options.safety * limit.time_step : clock_.time_step); });
             if (!(clock_.time_step > 1e-6 * first_step))
               throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")",
                                     {clock_.time, clock_.step, "", -1, "time_step", clock_.time_step});
@@ -158,7 +158,7 @@ class Scene {
         ++report.steps;
         // Where nobody looks at the state between two steps, the end of one and the beginning of the next are one pass.
         const bool checks = clock_.step % options.check_every == 0,
-                   chooses = (options.time_step == 0.0 || bounds_jump || has_substeps) && clock_.step % steps_between_choices == 0;
+                   chooses = (options.time_step == 0.0 || bounds_jump || has_substeps) && clock_.step % steps_between_choices() == 0;
         begun = !checks && !chooses && !observes() && goes_further();
         if (begun) {
           clock_.tick();
@@ -241,7 +241,14 @@ class Scene {
   }();
   static constexpr bool has_bonds = (is_bonds<Item> || ...);
   static constexpr bool bonds_break = Engine<Dim, Integrator, Precision, Item...>::bonds_break;
-  static constexpr std::uint64_t steps_between_choices = bounds_jump ? 1 : 10;
+  /// Forces of a potential may change the speed at which beads collide as fast; that bounds no step that the user has given.
+  static constexpr bool collides = [] {
+    return ([] {
+      if constexpr (is_interaction<Item>) return Item::collides;
+      return false;
+    }() || ...);
+  }();
+  [[nodiscard]] std::uint64_t steps_between_choices() const noexcept { return bounds_jump || (collides && clock_.automatic == 1) ? 1 : 10; }
   static constexpr bool has_substeps = Engine<Dim, Integrator, Precision, Item...>::has_substeps;
   struct Observer {
     double interval;
@@ -259,7 +266,7 @@ class Scene {
   }
 
   void choose_step(double dt) {
-    const bool goes_on = dt == clock_.time_step && clock_.substeps > 0 && clock_.step % steps_between_choices != 0;
+    const bool goes_on = dt == clock_.time_step && clock_.substeps > 0 && clock_.step % steps_between_choices() != 0;
     clock_.choose(dt);
     if constexpr (has_substeps) {
       if (!goes_on) clock_.substeps = static_cast<std::uint64_t>(substeps_for(engine_, dt));

@@ -90,9 +90,9 @@ struct PotentialForce {
   }
 
   /// The step [s] that resolves the worst collision of two particles of this reduced mass [kg], relative speed [m/s] and acceleration
-  /// [m/s^2]: omega dt <= 1 where they turn back, omega^2 = U''/mass, which keeps the energy of a head-on collision to 1e-3; and, for a
-  /// potential that does not turn them back, a quarter of the cut-off. Their energy is m v^2/2 + U where the force is m a, so that the
-  /// step stays the same throughout the collision. Particles squeezed from all sides have no acceleration: that is what largest_stiffness
+  /// [m/s^2]: omega dt <= 1 where they turn back, omega^2 = U''/mass, which keeps the speed of a head-on collision to 1 %; and, should the
+  /// potential not turn them back, a quarter of the cut-off. Their energy is m v^2/2 + U where the force is m a, so that the
+  /// step stays the same throughout the collision of two alone; it is chosen anew in every step, since others accelerate them too. Particles squeezed from all sides have no acceleration: that is what largest_stiffness
   /// is stated for.
   [[nodiscard]] double collision_step(double mass, double speed, double acceleration) const {
     const auto force = [this](double r) { return r * potential.force_factor(r * r); };
@@ -105,6 +105,10 @@ struct PotentialForce {
     return stiffness > 0.0 ? std::min(crossing, std::sqrt(mass / stiffness)) : crossing;
   }
 };
+template <class L>
+inline constexpr bool is_potential = false;
+template <class P>
+inline constexpr bool is_potential<PotentialForce<P>> = true;
 template <class P>
 void validate(const PotentialForce<P>& law) {
   check_parameters(law.potential);
