@@ -1,4 +1,4 @@
-// Amorphous solids as random networks of springs (35 s; 13 s with --quick): a cube expanded by 1 % whose border is held, untuned and tuned;
+// Amorphous solids as random networks of springs (35 s; 12 s with --quick): a cube expanded by 1 % whose border is held, untuned and tuned;
 // bars drawn by their ends, with more and less springs per bead and other Poisson ratios; a cube pressed between plates. Stress, strain
 // and elastic constants against theory, the paper and an independent solver. Cases B4 to B10, B12. Lengths in a0, stiffnesses in k0,
 // stresses in k0/a0. M. Kot, ChemEngineering 5 (2021) 3, doi:10.3390/chemengineering5010003.

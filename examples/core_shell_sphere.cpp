@@ -1,4 +1,4 @@
-// A ball with a hard core and a soft shell, or the reverse, between two plates (65 s; 15 s with --quick). How much of the force of the
+// A ball with a hard core and a soft shell, or the reverse, between two plates (70 s; 13 s with --quick). How much of the force of the
 // all-hard ball is left at delta/2R = 5 %, for several shells and stiffnesses, and the Young's modulus that each shows as a whole. The
 // bonds across the surface of the core are the shell's; the thickness h of the shell is measured in radii. Cases A10 to A14.
 // M. Sahputra, A. Alexiadis, M. J. Adams, ChemEngineering 4 (2020) 30, doi:10.3390/chemengineering4020030: their pair of 0.11 and 0.67 at

@@ -1,4 +1,4 @@
-// Two dam breaks: a column of water collapses on a dry floor (2D), and a reservoir breaks over a box (3D) (80 s; 4 s with --quick).
+// Two dam breaks: a column of water collapses on a dry floor (2D), and a reservoir breaks over a box (3D) (75 s; 4 s with --quick).
 // How far do surge front and water levels follow the experiments, and does the scheme only ever lose energy, and no water?
 // 2D: J. C. Martin, W. J. Moyce, Phil. Trans. R. Soc. A 244 (1952) 312-324, doi:10.1098/rsta.1952.0006: column a wide and 2a high.
 // 3D: K. M. T. Kleefsman et al., J. Comput. Phys. 206 (2005) 363-393, doi:10.1016/j.jcp.2004.12.007: the dam break of MARIN, benchmark 2

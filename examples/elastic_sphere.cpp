@@ -1,4 +1,4 @@
-// An elastic ball of beads and springs between two plates, against Hertz (45 s; 11 s with --quick; --full: the published 137,059 beads).
+// An elastic ball of beads and springs between two plates, against Hertz (40 s; 10 s with --quick; --full: the published 137,059 beads).
 // Ordered: a cubic lattice in a generic orientation, and with plates along its layers, where the ball has flat facets and is no Hertz
 // contact. Disordered: three random networks. The Young's modulus that the force curve shows, with a free zero, and the depth of the
 // largest shear stress under the contact. No time: from one state of rest to the next. Cases A4, A5, A6, A7.

@@ -1,4 +1,4 @@
-// A liquid pushed down a tube that an elastic membrane closes: the membrane inflates like a balloon (15 s; 1 s with --quick).
+// A liquid pushed down a tube that an elastic membrane closes: the membrane inflates like a balloon (14 s; 1 s with --quick).
 // SPH liquid (Tait, Morris viscosity), a chain of springs, and Lennard-Jones repulsion between the two: a coupled scene whose groups
 // share nothing but what is declared. Case DMP-A; A. Albano et al., ChemEngineering 5 (2021) 30, doi:10.3390/chemengineering5020030,
 // appendix A, on a closed geometry; the reference values were run with LAMMPS on this geometry.

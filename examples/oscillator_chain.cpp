@@ -1,5 +1,5 @@
 // Sound in a ring of masses and springs: how fast waves of every length run, and whether they last a million steps
-// (10 s; 1 s with --quick). Nothing but bonds. Seven waves run round the ring at once; their frequencies are compared with the dispersion
+// (7 s; 1 s with --quick). Nothing but bonds. Seven waves run round the ring at once; their frequencies are compared with the dispersion
 // relation of the chain, omega = 2 sqrt(k/m) |sin(q a/2)|, and with what the leapfrog makes of it, sin(Omega dt/2) = omega dt/2, which it
 // must meet to rounding.
 // Chain: L. Brillouin, Wave Propagation in Periodic Structures (McGraw-Hill, 1946), chapter 1. Leapfrog: E. Hairer, C. Lubich, G. Wanner,

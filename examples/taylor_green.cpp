@@ -1,4 +1,4 @@
-// How fast does a Lagrangian method let a vortex decay? (8 s; 1 s with --quick.) Taylor and Green's periodic vortices at
+// How fast does a Lagrangian method let a vortex decay? (7 s; 1 s with --quick.) Taylor and Green's periodic vortices at
 // Reynolds number 100, over three resolutions, against the exact solution: velocity falls as exp(-8 pi^2 nu t/L^2), in place.
 // G. I. Taylor, A. E. Green, Proc. R. Soc. Lond. A 158 (1937) 499-521, doi:10.1098/rspa.1937.0036. Hard for particles: they are drawn
 // out along the stagnation lines (S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 241 (2013) 292-307, doi:10.1016/j.jcp.2013.01.043,

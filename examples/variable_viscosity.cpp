@@ -1,5 +1,5 @@
 // Plane channel flow of fluids whose viscosity varies: with the temperature between a cold and a hot wall, prescribed or conducted, and
-// with the shear rate; and of one viscosity by the laws along the line of centres (11 s; 2 s with --quick). Errors of velocity and
+// with the shear rate; and of one viscosity by the laws along the line of centres (10 s; 2 s with --quick). Errors of velocity and
 // viscosity against exact profiles. Cases VISC-2, VISC-3, VISC-4, VISC-5. A. Albano et al., ChemEngineering 5 (2021) 30,
 // doi:10.3390/chemengineering5020030, section 7.2.
 #include <algorithm>

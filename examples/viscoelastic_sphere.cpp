@@ -1,4 +1,4 @@
-// A ball of viscoelastic bonds between two plates that approach and then hold (60 s; 7 s with --quick). Kelvin-Voigt bonds: on the ramp
+// A ball of viscoelastic bonds between two plates that approach and then hold (50 s; 6 s with --quick). Kelvin-Voigt bonds: on the ramp
 // the force is that of the elastic ball plus tau dF/dt, tau = b/k; at the stop it drops to the elastic force and stays (A8a, A8b, A9).
 // Standard linear solids: it relaxes to the elastic force with the time of the branches (A8c). Without inertia: every step in time is a
 // state of rest. The elastic force is that of the same ball, so that facets and the number of beads cancel.
