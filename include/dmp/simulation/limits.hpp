@@ -148,10 +148,11 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
     Holds<G::Dim> springs, dashpots;  // of bonds; empty without any
     std::vector<double> forced;       // omega^2 of forcings; empty without any that have a stiffness
     double drag = 0.0;
-    for_each_bonds_of(engine, g, kind,
-                      [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto& partners) {
-                        add_holds(item.law, per_mass, list, g, partners, engine.box(), springs, dashpots);
-                      });
+    if constexpr (G::Layout::has_bonds)
+      for_each_bonds_of(engine, g, kind,
+                        [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto& partners) {
+                          add_holds(item.law, per_mass, list, g, partners, engine.box(), springs, dashpots);
+                        });
     engine.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_forced<I>)
@@ -241,8 +242,13 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
     if (shortest.bound == std::numeric_limits<double>::infinity()) return;
     std::string law;
     switch (shortest.by) {
-      case By::bond_dashpots: law = "bond dashpot of " + binding_bonds(engine, g, kind, shortest.where, true); break;
-      case By::bond_springs: law = "bond stiffness of " + binding_bonds(engine, g, kind, shortest.where, false); break;
+      case By::bond_dashpots:
+      case By::bond_springs:
+        if constexpr (G::Layout::has_bonds) {
+          const bool by_dashpot = shortest.by == By::bond_dashpots;
+          law = (by_dashpot ? "bond dashpot of " : "bond stiffness of ") + binding_bonds(engine, g, kind, shortest.where, by_dashpot);
+        }
+        break;
       case By::drags: law = "drag on " + g.name; break;
       case By::forcing_springs: law = "stiffness of a forcing on " + g.name; break;
       case By::viscosities: law = "viscosity of " + g.name; break;
