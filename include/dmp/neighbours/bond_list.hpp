@@ -62,7 +62,6 @@ class BondList {
   /// `same_group`: both ends lie in this group; if not, `own_is_j` picks the end that does. `pack` entries make a whole pack.
   void build(const Blocks& blocks, std::span<const Bond> bonds, bool same_group, bool own_is_j, std::size_t pack, Strides strides) {
     strides_ = strides;
-    same_group_ = same_group;
     const std::size_t particles = blocks.end(blocks.size() - 1);
     std::vector<std::uint32_t> block_of(particles);
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -139,11 +138,8 @@ class BondList {
     }
     return result;
   }
-  /// Row of the partner of entry k of particle i; and whether it lists a bond within a block, which nobody else does.
+  /// Row of the partner of entry k of particle i.
   [[nodiscard]] std::size_t partner_of(std::size_t i, std::size_t k) const noexcept { return partner_[offset_[i] + k] / strides_.records; }
-  [[nodiscard]] bool is_listed_once(std::size_t i, std::size_t k) const noexcept {
-    return same_group_ && reaction_[offset_[i] + k] / strides_.sums == partner_of(i, k);
-  }
   /// Entries that are bonds.
   [[nodiscard]] std::size_t whole() const noexcept {
     return static_cast<std::size_t>(std::count_if(rest_length_.begin(), rest_length_.end(), [](double length) { return length >= 0.0; }));
@@ -184,8 +180,7 @@ class BondList {
   }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return (offset_.size() + partner_.size() + reaction_.size()) * sizeof(std::uint32_t) +
-           (rest_length_.size() + weight_.size() + memory_.size() + length_.size()) * sizeof(double) +
-           crosses_.size();
+           (rest_length_.size() + weight_.size() + memory_.size() + length_.size()) * sizeof(double) + crosses_.size();
   }
 
  private:
@@ -193,7 +188,6 @@ class BondList {
   std::vector<double> rest_length_, weight_, memory_, length_;
   std::size_t weight_step_ = 0;
   Strides strides_;
-  bool same_group_ = false;
   std::vector<std::uint8_t> crosses_;
 };
 

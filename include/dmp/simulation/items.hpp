@@ -42,7 +42,8 @@ template <class Tag, class Mobility, int Dim>
   if constexpr (particles::is_roller<Mobility>) {
     const auto& along = mobility.motion.direction.value;
     const double squared = dot(along, along);
-    require(std::fabs(squared - 1.0) <= 1e-12, ("group " + name + ": direction of a Roller must have length 1, its square").c_str(), squared);
+    require(std::fabs(squared - 1.0) <= 1e-12, ("group " + name + ": direction of a Roller must have length 1, its square").c_str(),
+            squared);
   }
   if (points.positions.empty()) throw ParameterError("group " + name + ": at least one particle is needed, got none");
   return {std::move(name), std::move(mobility), std::move(points), mass};

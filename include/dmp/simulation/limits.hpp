@@ -216,8 +216,8 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
       return result;
     };
     if (springs.empty() && dashpots.empty() && forced.empty() && !(pairs.oscillation > 0.0)) return;
-    // Eigenvalues only where they may matter. The margin, of the solver's accuracy (1e-8), keeps that from depending on how rows are divided
-    // among threads.
+    // Eigenvalues only where they may matter. The margin, wider than the solver's error (1e-8), keeps that from depending on how rows are
+    // divided among threads.
     const auto largest = [](const Holds<G::Dim>& holds, std::size_t i) {
       if constexpr (G::Layout::has_bonds) return holds.largest(i);
       else return 0.0;
@@ -257,10 +257,6 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
     limit.require_below(shortest.bound < 0.0 ? std::numeric_limits<double>::quiet_NaN() : shortest.bound, law);
   }
 }
-
-}  // namespace detail
-
-namespace detail {
 
 /// What laws of bonds and forcings say of themselves is what bounds are made of: ParameterError unless it is a number >= 0.
 template <class Engine, class Item>

@@ -99,7 +99,8 @@ class Model {
         for (int d = 0; d < Dim; ++d) {  // through an oblique face a particle would change its rail
           const double along = std::fabs(g.mobility.motion.direction.value[d]);
           if (periods_[static_cast<std::size_t>(d)] > 0.0 && along > 1e-12 && along < 1.0 - 1e-12)
-            throw ParameterError("group " + g.name + ": direction of a Roller must lie along or across each periodic direction, got component " +
+            throw ParameterError("group " + g.name +
+                                 ": direction of a Roller must lie along or across each periodic direction, got component " +
                                  to_text(along) + " along one");
         }
     });

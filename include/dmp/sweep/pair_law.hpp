@@ -91,9 +91,9 @@ struct PotentialForce {
 
   /// The step [s] that resolves the worst collision of two particles of this reduced mass [kg], relative speed [m/s] and acceleration
   /// [m/s^2]: omega dt <= 1 where they turn back, omega^2 = U''/mass, which keeps the speed of a head-on collision to 1 %; and, should the
-  /// potential not turn them back, a quarter of the cut-off. Their energy is m v^2/2 + U where the force is m a, so that the
-  /// step stays the same throughout the collision of two alone; it is chosen anew in every step, since others accelerate them too. Particles squeezed from all sides have no acceleration: that is what largest_stiffness
-  /// is stated for.
+  /// potential not turn them back, a quarter of the cut-off. Their energy is m v^2/2 + U where the force is m a, so that the step stays
+  /// about the same throughout the collision of two alone; it is chosen anew in every step, since others accelerate them too. Particles
+  /// squeezed from all sides have no acceleration: that is what largest_stiffness is stated for.
   [[nodiscard]] double collision_step(double mass, double speed, double acceleration) const {
     const auto force = [this](double r) { return r * potential.force_factor(r * r); };
     const auto energy = [this](double r) { return potential.energy(r * r); };
