@@ -14,7 +14,7 @@ using dmp::neighbours::Run;
 
 namespace {
 
-/// Particles, where they were when lists were built and how far they have moved since, in runs of one cell each as a scene keeps them.
+/// Particles, where they were when lists were built and how far they have moved since, in blocks as a scene keeps them.
 template <int Dim>
 struct Motion {
   test::Cloud<Dim> points, moved;
@@ -23,26 +23,36 @@ struct Motion {
   RelativeMotion<Dim> motion{};
   std::vector<std::uint32_t> cell{};
 
-  /// `longest_run`: what is longer is cut into several runs of one cell, as blocks do.
-  double finish(std::size_t longest_run = 3) {
+  /// `block`: rows of a block; runs of one cell are cut where it ends. Rows before and after the middle are two groups.
+  double relative(std::size_t block = 3) { return wear(block).relative; }
+  typename RelativeMotion<Dim>::Wear wear(std::size_t block = 3) {
     Bounds<Dim> bounds;
     for (const auto& x : points) bounds.add(x);
     motion.build(bounds, box, reach, points.size());
-    cell.clear();
-    std::vector<Run<Dim>> runs;
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-      cell.push_back(motion.cell_of(points[i]));
-      if (runs.empty() || runs.back().cell != cell.back() || i - runs.back().first >= longest_run) {
-        runs.push_back({i, cell.back()});
-        runs.back().displacement = Bounds<Dim>{};
+    cell.assign(points.size(), 0);
+    const std::size_t half = points.size() / 2;
+    follow(0, half, block);
+    follow(half, points.size(), block);
+    return motion.find_wear();
+  }
+  void follow(std::size_t first, std::size_t last, std::size_t block) {
+    std::vector<std::size_t> bounds{0};
+    while (bounds.back() < last - first) bounds.push_back(std::min(bounds.back() + block, last - first));
+    if (bounds.size() == 1) bounds.push_back(0);
+    dmp::Blocks blocks;
+    blocks.set_bounds(bounds);
+    std::vector<std::size_t> first_run;
+    motion.follow(blocks, std::span<const Vector<Dim>>(points).subspan(first, last - first), first_run);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const auto runs = motion.runs(first_run[b], first_run[b + 1]);
+      for (std::size_t r = 0; r < runs.size(); ++r) {
+        runs[r].displacement = Bounds<Dim>{};
+        for (std::size_t i = runs[r].first; i < (r + 1 < runs.size() ? runs[r + 1].first : blocks.end(b)); ++i) {
+          runs[r].displacement.add(moved[first + i]);
+          cell[first + i] = runs[r].cell;
+        }
       }
-      runs.back().displacement.add(moved[i]);
     }
-    motion.start();
-    const std::span<const Run<Dim>> all(runs);  // of two groups, say
-    motion.add(all.first(runs.size() / 2));
-    motion.add(all.subspan(runs.size() / 2));
-    return motion.finish();
   }
   /// The largest relative displacement of two that were within `distance` of each other, of particle i or (-1) of all.
   [[nodiscard]] double largest(double distance, std::int64_t of = -1) const {
@@ -64,7 +74,7 @@ void check_against_every_pair(test::Cloud<Dim> points, const std::array<bool, Di
     CAPTURE(reach);
     Motion<Dim> motion{.points = points, .moved = {}, .box = test::cube<Dim>(1.0, periodic), .reach = reach};
     for (const auto& x : points) motion.moved.push_back(displacement(x));
-    const double found = motion.finish();
+    const double found = motion.relative();
     CHECK(found >= motion.largest(reach) * (1.0 - 1e-14));
     CHECK(found <= std::sqrt(Dim) * motion.largest(std::sqrt(Dim) * 5.0 * reach) * (1.0 + 1e-14));
     double largest_used = 0.0;
@@ -120,19 +130,17 @@ TEST_CASE_TEMPLATE("what moves along together wears no lists: exactly 0, however
     std::array<bool, dim> periodic;
     periodic.fill(true);
     Motion<dim> motion{.points = points, .moved = test::Cloud<dim>(300, Vector<dim>::Constant(-far)), .box = test::cube<dim>(1.0, periodic), .reach = 0.2};
-    CHECK(motion.finish() == 0.0);
+    CHECK(motion.relative() == 0.0);
   }
 }
 
 TEST_CASE("how far the farthest has gone along an axis, whoever goes with it") {
   Motion<2> motion{.points = test::scattered<2>(300, 1.0, 1), .moved = test::Cloud<2>(300, Vector<2>(0.25, -3.0)), .box = test::cube<2>(1.0, {true, true}), .reach = 0.2};
-  CHECK(motion.finish() == 0.0);
-  CHECK(motion.motion.farthest() == 3.0);
+  CHECK(motion.wear().relative == 0.0);
+  CHECK(motion.wear().farthest == 3.0);
   motion.moved[17] = Vector<2>(5.0, 0.0);
-  CHECK(motion.finish() > 0.0);
-  CHECK(motion.motion.farthest() == 5.0);
-  motion.motion.start();
-  CHECK(motion.motion.farthest() == 0.0);
+  CHECK(motion.wear().relative > 0.0);
+  CHECK(motion.wear().farthest == 5.0);
 }
 
 TEST_CASE("two that fly apart are none of each other's affair unless they were neighbours, also through a periodic face") {
@@ -140,7 +148,7 @@ TEST_CASE("two that fly apart are none of each other's affair unless they were n
     Motion<1> motion{.points = {Vector<1>(a), Vector<1>(b), Vector<1>(-0.5), Vector<1>(0.49)}, .moved = {Vector<1>(1.0), Vector<1>(-1.0)}, .box = test::cube<1>(1.0, {periodic}), .reach = 0.1};
     motion.moved.push_back(motion.points[0][0] < -0.3 ? motion.moved[0] : motion.moved[1]);  // those at the ends go with their neighbours
     motion.moved.push_back(motion.points[0][0] > 0.3 ? motion.moved[0] : motion.moved[1]);
-    return motion.finish();
+    return motion.relative();
   };
   CHECK(apart(0.0, 0.05, false) == 2.0);
   CHECK(apart(-0.45, 0.45, false) == 0.0);
@@ -150,35 +158,35 @@ TEST_CASE("two that fly apart are none of each other's affair unless they were n
 TEST_CASE("a place where nobody moves uses up nothing, though others elsewhere do") {
   Motion<2> motion{.points = test::lattice<2>(20, 1.0), .moved = {}, .box = test::cube<2>(1.0, {true, true}), .reach = 0.1};
   for (const auto& x : motion.points) motion.moved.push_back(x.norm() < 0.1 ? 0.3 * x : Vector<2>(Vector<2>::Zero()));
-  CHECK(motion.finish() > 0.0);
+  CHECK(motion.relative() > 0.0);
   for (std::size_t i = 0; i < motion.points.size(); ++i)
     if (motion.points[i].norm() > 0.1 + 2.0 * 0.2 * std::sqrt(2.0)) CHECK(motion.motion.used(motion.cell[i]) == 0.0);
 }
 
-TEST_CASE("a start forgets what was added; what is found does not depend on the number of threads") {
+TEST_CASE("what is found depends neither on the number of threads nor on the blocks; it is nothing before anybody has moved") {
   double first = -1.0;
   for (const int count : {1, 2, 4}) {
     const test::Threads threads(count);
     Motion<2> motion{.points = test::scattered<2>(3000, 1.0, 1), .moved = test::scattered<2>(3000, 0.1, 2), .box = test::cube<2>(1.0, {true, false}), .reach = 0.02};
-    const double found = motion.finish();
+    const double found = motion.relative(static_cast<std::size_t>(1000 / count));
     if (first < 0.0) first = found;
     CHECK(found == first);
-    motion.motion.start();
-    CHECK(motion.motion.finish() == 0.0);
+    motion.moved.assign(motion.points.size(), Vector<2>::Zero());
+    CHECK(motion.relative() == 0.0);
     CHECK(motion.motion.used(motion.cell[0]) == 0.0);
   }
 }
 
 TEST_CASE("particles that have got lost do not hide that others have moved; without any particle nothing has moved") {
   Motion<2> lost{.points = {{0.0, 0.0}, {0.05, 0.0}, {0.4, 0.4}}, .moved = {{0.0, 0.0}, {0.3, 0.0}, {NAN, NAN}}, .box = test::cube<2>(1.0), .reach = 0.1};
-  CHECK_FALSE(lost.finish() <= 0.2);
+  CHECK_FALSE(lost.relative() <= 0.2);
   Motion<2> nobody{.points = {}, .moved = {}, .box = test::cube<2>(1.0, {true, true}), .reach = 0.1};
-  CHECK(nobody.finish() == 0.0);
+  CHECK(nobody.relative() == 0.0);
 }
 
 TEST_CASE("a few particles, however far apart, are followed with little memory") {
   Motion<3> few{.points = {{0.0, 0.0, 0.0}, {0.05, 0.0, 0.0}, {1e5, 1e5, 1e5}}, .moved = test::Cloud<3>(3, Vector<3>::Zero()), .box = test::cube<3>(1e6), .reach = 0.1};
   few.moved[1] = {0.3, 0.0, 0.0};
-  CHECK(few.finish() >= 0.3);
+  CHECK(few.relative() >= 0.3);
   CHECK(few.motion.bytes() < 10000);
 }

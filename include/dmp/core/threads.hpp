@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <span>
@@ -167,11 +168,21 @@ class Blocks {
   Ranges ranges_;
 };
 
-/// Calls function(range, block) for every block, the blocks of a range one after the other on one thread.
+/// Calls function(thread, block) for every block. Each thread begins with the blocks of its own range, one after the other, and takes over
+/// what others have not begun when it is done: cores are not equally fast at all times.
 template <class Function>
 void for_each_block(const Blocks& blocks, Function&& function) {
-  for_each_range(blocks.ranges(), [&](std::size_t range, std::size_t, std::size_t) {
-    for (std::size_t b = blocks.first_block(range); b < blocks.first_block(range + 1); ++b) function(range, b);
+  const std::size_t ranges = blocks.ranges().size();
+  struct alignas(64) Next {  // no two threads share a cache line until one is done
+    std::atomic<std::size_t> block;
+  };
+  std::vector<Next> next(ranges);
+  for (std::size_t range = 0; range < ranges; ++range) next[range].block = blocks.first_block(range);
+  for_each_range(blocks.ranges(), [&](std::size_t thread, std::size_t, std::size_t) {
+    for (std::size_t k = 0; k < ranges; ++k) {
+      const std::size_t range = (thread + k) % ranges, end = blocks.first_block(range + 1);
+      for (std::size_t block; (block = next[range].block.fetch_add(1, std::memory_order_relaxed)) < end;) function(thread, block);
+    }
   });
 }
 

@@ -77,53 +77,40 @@ class CellGrid {
     for (std::size_t k = 0; k < all.size; ++k)
       if (all.rows[k] != self) found.push_back(all.rows[k]);
   }
+  /// Rows that a search leaves out, `count` of them from `first` on.
+  struct LeftOut {
+    std::uint32_t first = 0, count = 0;
+  };
   /// Appends to `found` all particles closer than `radius` [m] to `x`.
-  void find(const Vector<Dim>& x, double least_radius, Found& found) const {
+  void find(const Vector<Dim>& x, double least_radius, Found& found, LeftOut left_out = {}) const {
     if (order().empty()) return;
-    const double radius = least_radius + margin_;
-    // Along each direction the cells within reach, and how far (squared) x is from each.
-    constexpr int most = 8;  // cells are at least half a radius wide unless the caller wants otherwise
-    std::array<int, Dim> low, high;
-    std::array<std::array<double, most>, Dim> aside;
-    bool few = true;
+    const Query query{.x = x, .radius = least_radius + margin_, .left_out = left_out};
+    const double radius_squared = query.radius * query.radius;
+    std::array<int, Dim> low, high;  // cells within reach along each direction
     for (std::size_t d = 0; d < Dim; ++d) {
-      low[d] = cells_.along(x[static_cast<int>(d)] - radius, static_cast<int>(d));
-      high[d] = cells_.along(x[static_cast<int>(d)] + radius, static_cast<int>(d));
-      few = few && (d == 0 || high[d] - low[d] < most);
+      low[d] = cells_.along(x[static_cast<int>(d)] - query.radius, static_cast<int>(d));
+      high[d] = cells_.along(x[static_cast<int>(d)] + query.radius, static_cast<int>(d));
     }
-    if (few)
-      for (int d = 1; d < Dim; ++d)
-        for (int c = low[static_cast<std::size_t>(d)]; c <= high[static_cast<std::size_t>(d)]; ++c)
-          aside[static_cast<std::size_t>(d)][static_cast<std::size_t>(c - low[static_cast<std::size_t>(d)])] = aside_squared(x[d], c, d);
-    std::array<Lanes, Dim> relative;
-    for (std::size_t d = 0; d < Dim; ++d) relative[d] = x[static_cast<int>(d)] - cells_.lower[static_cast<int>(d)];
-    const auto row_of_cells = [&](std::size_t row, double aside_of_row) {
-      double reach = radius;
-      if constexpr (Dim > 1) {
-        if (aside_of_row >= radius * radius) return;
-        reach = std::sqrt(radius * radius - aside_of_row) + 1e-12 * radius;
-      }
-      const std::size_t first = row + static_cast<std::size_t>(cells_.along(x[0] - reach, 0));
-      const std::size_t last = row + static_cast<std::size_t>(cells_.along(x[0] + reach, 0)) + 1;
-      if (exact_.empty()) test(sort_.begin(first), sort_.begin(last), relative, static_cast<float>(radius * radius * (1.0 + 1e-6)), found);
-      else test_exactly(sort_.begin(first), sort_.begin(last), x, radius * radius, found);
+    RowsOfCells rows;
+    const auto add = [&](std::size_t first_cell, double aside_squared) {  // no branch but for a full buffer: it would be foretold wrongly
+      rows.first_cell[rows.count] = first_cell;
+      rows.aside_squared[rows.count] = aside_squared;
+      rows.count += aside_squared >= radius_squared ? 0u : 1u;
+      if (rows.count == RowsOfCells::most) search(query, rows, found);
     };
     if constexpr (Dim == 1) {
-      row_of_cells(0, 0.0);
+      add(0, 0.0);
     } else {
-      const auto distance = [&](int d, int c) {
-        if (few) return aside[static_cast<std::size_t>(d)][static_cast<std::size_t>(c - low[static_cast<std::size_t>(d)])];
-        return aside_squared(x[d], c, d);
-      };
       const auto in_plane = [&](std::size_t plane, double aside_of_plane) {
         for (int c = low[1]; c <= high[1]; ++c)
-          row_of_cells((plane + static_cast<std::size_t>(c)) * static_cast<std::size_t>(cells_.count[0]), aside_of_plane + distance(1, c));
+          add((plane + static_cast<std::size_t>(c)) * static_cast<std::size_t>(cells_.count[0]), aside_of_plane + aside_squared(x[1], c, 1));
       };
       if constexpr (Dim == 2) in_plane(0, 0.0);
       else
         for (int c = low[2]; c <= high[2]; ++c)
-          in_plane(static_cast<std::size_t>(c) * static_cast<std::size_t>(cells_.count[1]), distance(2, c));
+          in_plane(static_cast<std::size_t>(c) * static_cast<std::size_t>(cells_.count[1]), aside_squared(x[2], c, 2));
     }
+    search(query, rows, found);
   }
 
   [[nodiscard]] std::size_t bytes() const noexcept { return sort_.bytes() + Dim * coordinate_[0].capacity() * sizeof(float); }
@@ -137,46 +124,97 @@ class CellGrid {
     const double aside = std::max(0.0, std::max(-at, at - 1.0) - slack) * cells_.width[d];
     return aside * aside;
   }
-  /// Candidates first .. last - 1 of one row of cells.
-  void test(std::size_t first, std::size_t last, const std::array<Lanes, Dim>& x, float radius_squared, Found& found) const {
-    constexpr int width = Lanes::width;
-    found.make_room(last - first + (packs_at_once + 1) * width);
-    const std::uint32_t* const row = order().data() + first;
-    std::array<const float*, Dim> coordinate;
-    for (std::size_t d = 0; d < Dim; ++d) coordinate[d] = coordinate_[d].data() + first;
-    std::uint32_t* const rows = found.rows.data();
-    float* const fractions = found.fraction.data();
-    std::size_t size = found.size;
-    const Lanes radius(radius_squared), scale(1.0 / radius_squared);
-    const auto one_pack = [&](std::ptrdiff_t k, std::ptrdiff_t left) __attribute__((always_inline)) {
-      Lanes distance_squared(0.0);
-      unrolled<Dim>([&](auto d) __attribute__((always_inline)) {
-        const Lanes difference = Lanes::load(coordinate[d] + k) - x[d];
-        distance_squared += difference * difference;
-      });
-      const auto beyond = static_cast<unsigned>(std::clamp<std::ptrdiff_t>(left, 0, width));  // no branch: it would be foretold wrongly
-      const unsigned near = (distance_squared < radius).bits() & ~(~0u << beyond);
-      typename Lanes::Rows numbers;
-      __builtin_memcpy(&numbers, row + k, sizeof(numbers));
-      compress<width>(numbers, near, rows + size);
-      const Lanes fraction = distance_squared * scale;
-      __builtin_memcpy(&numbers, &fraction.raw, sizeof(numbers));
-      compress<width>(numbers, near, reinterpret_cast<std::uint32_t*>(fractions + size));
-      size += static_cast<std::size_t>(__builtin_popcount(near));
-    };
-    const auto left = static_cast<std::ptrdiff_t>(last - first);
-    unrolled<packs_at_once>([&](auto p) __attribute__((always_inline)) { one_pack(p * width, left - p * width); });  // most rows: no branch
-    for (std::ptrdiff_t k = packs_at_once * width; k < left; k += width) one_pack(k, left - k);
-    found.size = size;
+  struct Query {
+    Vector<Dim> x;
+    double radius;
+    LeftOut left_out;
+  };
+  /// Rows of cells along the first direction: the first cell, and how far (squared) from x the others' directions put all of the row.
+  struct RowsOfCells {
+    static constexpr std::size_t most = 32;
+    std::size_t count = 0, first_cell[most];
+    alignas(64) double aside_squared[most];
+  };
+  /// All candidates of some rows of cells, which are forgotten.
+  void search(const Query& query, RowsOfCells& rows, Found& found) const {
+    using Doubles = Pack<double, native_width<double>>;
+    alignas(64) double from[RowsOfCells::most], to[RowsOfCells::most];
+    const double last_cell = cells_.count[0] - 1.0, x = query.x[0] - cells_.lower[0];
+    for (std::size_t k = 0; k < rows.count; k += Doubles::width) {  // how far each row is within reach, several at once
+      const Doubles reach = sqrt(max(query.radius * query.radius - Doubles::load(rows.aside_squared + k), 0.0)) + 1e-12 * query.radius;
+      const auto cell = [&](Doubles at) { return min(max(0.0, at * cells_.inverse_width[0]), last_cell); };  // not a number: 0
+      cell(x - reach).store(from + k);
+      cell(x + reach).store(to + k);
+    }
+    std::array<std::uint32_t, RowsOfCells::most> first, last;  // candidates of each
+    std::size_t candidates = 0;
+    for (std::size_t k = 0; k < rows.count; ++k) {
+      first[k] = static_cast<std::uint32_t>(sort_.begin(rows.first_cell[k] + static_cast<std::size_t>(from[k])));
+      last[k] = static_cast<std::uint32_t>(sort_.begin(rows.first_cell[k] + static_cast<std::size_t>(to[k]) + 1));
+      candidates += last[k] - first[k];
+    }
+    found.make_room(candidates + (packs_at_once + 1) * Lanes::width);
+    const Test test(*this, query);
+    for (std::size_t k = 0; k < rows.count; ++k) {
+      if (exact_.empty()) found.size = test(first[k], last[k], found.rows.data(), found.fraction.data(), found.size);
+      else test_exactly(first[k], last[k], query, found);
+    }
+    rows.count = 0;
   }
 
+  /// The test of candidates, with what all rows of cells have in common.
+  struct Test {
+    std::array<const float*, Dim> coordinate;
+    const std::uint32_t* order;
+    std::array<Lanes, Dim> x;
+    Lanes radius_squared, scale;
+    LeftOut left_out;
+
+    Test(const CellGrid& grid, const Query& query)
+        : order(grid.order().data()), radius_squared(query.radius * query.radius * (1.0 + 1e-6)), left_out(query.left_out) {
+      scale = 1.0 / radius_squared;
+      for (std::size_t d = 0; d < Dim; ++d) {
+        coordinate[d] = grid.coordinate_[d].data();
+        x[d] = query.x[static_cast<int>(d)] - grid.cells_.lower[static_cast<int>(d)];
+      }
+    }
+    /// Candidates first .. last - 1; returns the new number of those found.
+    [[nodiscard, gnu::always_inline]] std::size_t operator()(std::size_t first, std::size_t last, std::uint32_t* rows, float* fractions,
+                                                             std::size_t size) const noexcept {
+      constexpr int width = Lanes::width;
+      const auto one_pack = [&](std::size_t k, std::ptrdiff_t left) __attribute__((always_inline)) {
+        Lanes distance_squared(0.0);
+        unrolled<Dim>([&](auto d) __attribute__((always_inline)) {
+          const Lanes difference = Lanes::load(coordinate[d] + k) - x[d];
+          distance_squared += difference * difference;
+        });
+        typename Lanes::Rows numbers;
+        __builtin_memcpy(&numbers, order + k, sizeof(numbers));
+        const Mask<float, width> wanted{numbers - left_out.first >= left_out.count};
+        const auto beyond = static_cast<unsigned>(std::clamp<std::ptrdiff_t>(left, 0, width));  // no branch: it would be foretold wrongly
+        const unsigned near = (distance_squared < radius_squared && wanted).bits() & ~(~0u << beyond);
+        compress<width>(numbers, near, rows + size);
+        const Lanes fraction = distance_squared * scale;
+        __builtin_memcpy(&numbers, &fraction.raw, sizeof(numbers));
+        compress<width>(numbers, near, reinterpret_cast<std::uint32_t*>(fractions + size));
+        size += static_cast<std::size_t>(__builtin_popcount(near));
+      };
+      const auto count = static_cast<std::ptrdiff_t>(last - first);
+      unrolled<packs_at_once>([&](auto p) __attribute__((always_inline)) {  // most rows: no branch
+        one_pack(first + p * width, count - static_cast<std::ptrdiff_t>(p * width));
+      });
+      for (std::ptrdiff_t k = packs_at_once * width; k < count; k += width) one_pack(first + static_cast<std::size_t>(k), count - k);
+      return size;
+    }
+  };
+
   /// The same one by one in double precision.
-  void test_exactly(std::size_t first, std::size_t last, const Vector<Dim>& x, double radius_squared, Found& found) const {
-    found.make_room(last - first);
+  void test_exactly(std::size_t first, std::size_t last, const Query& query, Found& found) const {
+    const double radius_squared = query.radius * query.radius;
     for (std::size_t k = first; k < last; ++k) {
       const std::uint32_t row = order()[k];
-      const double distance_squared = (exact_[row] - x).squaredNorm();
-      if (!(distance_squared < radius_squared)) continue;
+      const double distance_squared = (exact_[row] - query.x).squaredNorm();
+      if (!(distance_squared < radius_squared) || row - query.left_out.first < query.left_out.count) continue;
       found.rows[found.size] = row;
       found.fraction[found.size++] = static_cast<float>(distance_squared / radius_squared);
     }

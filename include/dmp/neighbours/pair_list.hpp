@@ -45,29 +45,28 @@ class PairList {
              const Sources& sources, const Exclusions& excluded, std::size_t pack) {
     pack_ = pack;
     at_.resize(positions.size());
-    start_.resize(blocks.size());
-    rows_.resize(std::max(rows_.size(), blocks.ranges().size()));
-    found_.resize(rows_.size());
-    for (auto& rows : rows_) rows.clear();
+    rows_.resize(blocks.size());
+    found_.resize(blocks.ranges().size());
     std::array<float, levels> within;  // squared distance, as a fraction of the longest; rounded up
     for (std::size_t l = 0; l < levels; ++l) {
       const double radius = cutoff + skin * static_cast<double>(l + 1) / levels + grid.margin(), longest = cutoff + skin + grid.margin();
       within[l] = static_cast<float>(radius * radius / (longest * longest) * (1.0 + 1e-6));
     }
-    for_each_block(blocks, [&](std::size_t range, std::size_t block) {
-      auto& rows = rows_[range];
+    for_each_block(blocks, [&](std::size_t thread, std::size_t block) {
+      auto& rows = rows_[block];
+      rows.clear();
       const std::size_t first = blocks.begin(block), last = blocks.end(block);
-      start_[block] = {range, rows.size()};
-      make_room(rows, blocks, range, first);
       for (std::size_t i = first; i < last; ++i) {
-        Found& found = found_[range].found;
+        if ((i - first) % 256 == 0) make_room(rows, i - first, last - first);
+        Found& found = found_[thread].found;
         found.size = 0;
-        grid.find(positions[i], cutoff + skin, found);
+        const auto begin_once = static_cast<std::uint32_t>(sources.once ? first : i), row = static_cast<std::uint32_t>(i);
+        grid.find(positions[i], cutoff + skin, found, {begin_once, sources.same_group ? row + 1 - begin_once : 0});  // not itself
         At& at = at_[i];
-        at.first = static_cast<std::uint32_t>((rows.size() - start_[block].first) / pack);
+        at.first = static_cast<std::uint32_t>(rows.size() / pack);
         const std::size_t begin = rows.size();
         rows.resize(begin + found.size + pack + Lanes::width);
-        choose_listed(found, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(sources.once ? first : i), sources, excluded);
+        name_rows(found, row, sources, excluded);
         std::size_t end = begin;
         for (std::size_t l = 0; l < levels; ++l) {
           const Lanes from(l > 0 ? within[l - 1] : 0.0f), to(within[l]);
@@ -95,13 +94,12 @@ class PairList {
   /// Of particle i, which lies in `block`, the neighbours that can act while no more than (level + 1)/levels of the skin is used up.
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t block, std::size_t i, std::size_t level = levels - 1) const noexcept {
     const At& at = at_[i];
-    return {rows_[start_[block].range].data() + start_[block].first + pack_ * at.first, pack_ * at.packs[level]};
+    return {rows_[block].data() + pack_ * at.first, pack_ * at.packs[level]};
   }
   /// Entries of a block, what a sweep over it costs.
   [[nodiscard]] double entries(const Blocks& blocks, std::size_t block) const noexcept {
     if (at_.empty() || blocks.begin(block) == blocks.end(block)) return 0.0;
-    const At& last = at_[blocks.end(block) - 1];
-    return static_cast<double>(pack_) * (last.first + last.packs[levels - 1]);
+    return static_cast<double>(rows_[block].size());
   }
   [[nodiscard]] std::size_t bytes() const noexcept {
     std::size_t result = at_.capacity() * sizeof(At);
@@ -114,49 +112,37 @@ class PairList {
     std::uint32_t first;                      // pack, counted from the start of the block
     std::array<std::uint16_t, levels> packs;  // of each level, with those before
   };
-  struct Start {
-    std::size_t range, first;
-  };
   using Lanes = Pack<float, native_width<float>>;
-  struct alignas(64) FoundOfRange {  // no two threads share a cache line
+  struct alignas(64) FoundOfThread {  // no two threads share a cache line
     Found found;
   };
 
-  /// Names found particles by their rows, and takes out those that are not listed here: their fraction becomes infinite. `begin`: first row
-  /// of those that list their pairs with i.
-  static void choose_listed(Found& found, std::uint32_t i, std::uint32_t begin, const Sources& sources, const Exclusions& excluded) {
+  /// Names found particles by their rows, and takes out those that are excluded: their fraction becomes infinite.
+  static void name_rows(Found& found, std::uint32_t i, const Sources& sources, const Exclusions& excluded) {
     const std::size_t size = found.size;
     constexpr float never = std::numeric_limits<float>::infinity();
     found.make_room(Lanes::width);
     std::uint32_t* const __restrict rows = found.rows.data();
     float* const __restrict fraction = found.fraction.data();
     const std::uint32_t owned = sources.owned, to_ghosts = sources.first_ghost - sources.owned;
-    const std::uint32_t further_up = sources.same_group ? i + 1 - begin : 0;  // and itself
-    for (std::size_t k = 0; k < size; ++k) {                                  // in vector registers: no branches, differences wrap around
-      const std::uint32_t row = rows[k] + (rows[k] < owned ? 0u : to_ghosts);
-      rows[k] = row;
-      fraction[k] = row - begin < further_up ? never : fraction[k];
-    }
+    for (std::size_t k = 0; k < size; ++k) rows[k] += rows[k] < owned ? 0u : to_ghosts;
     if (excluded.any(i))
       for (std::size_t k = 0; k < size; ++k)
         if (excluded.holds(i, sources.original(rows[k]))) fraction[k] = never;
     std::fill(fraction + size, fraction + size + Lanes::width, never);
   }
 
-  /// Memory for the rest of a range, by the look of the rows before `next`; without it vectors would take twice what they need.
-  static void make_room(AlignedVector<std::uint32_t>& rows, const Blocks& blocks, std::size_t range, std::size_t next) {
-    const auto done = static_cast<double>(next - blocks.ranges().begin(range)),
-               all = static_cast<double>(blocks.ranges().end(range) - blocks.ranges().begin(range));
-    if (!(done > 0.0)) return;
-    const double expected = static_cast<double>(rows.size()) * all / done;
+  /// Memory for the rest of a block, by the look of the particles `done` of `all`; without it vectors would take twice what they need.
+  static void make_room(AlignedVector<std::uint32_t>& rows, std::size_t done, std::size_t all) {
+    if (done == 0) return;
+    const double expected = static_cast<double>(rows.size()) * static_cast<double>(all) / static_cast<double>(done);
     if (static_cast<double>(rows.capacity()) < 1.01 * expected) rows.reserve(static_cast<std::size_t>(1.03 * expected) + 1024);
   }
 
   std::size_t pack_ = 1;
   std::vector<At> at_;
-  std::vector<Start> start_;                        // of each block
-  std::vector<AlignedVector<std::uint32_t>> rows_;  // one vector per range
-  std::vector<FoundOfRange> found_;                 // the same
+  std::vector<AlignedVector<std::uint32_t>> rows_;  // of each block
+  std::vector<FoundOfThread> found_;
 };
 
 }  // namespace dmp::neighbours

@@ -1,15 +1,18 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
+#include <dmp/core/aligned.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/geometry/box.hpp>
 #include <dmp/neighbours/cells.hpp>
+#include <dmp/neighbours/counting_sort.hpp>
 
 namespace dmp::neighbours {
 
@@ -26,9 +29,10 @@ struct Bounds {
     lower = lower.cwiseMin(other.lower);
     upper = upper.cwiseMax(other.upper);
   }
+  [[nodiscard]] bool empty() const noexcept { return !(lower[0] <= upper[0]); }
 };
 
-/// Particles of one group that were in the same coarse cell when the lists were built, rows first .. first of the next run.
+/// Particles of one block that were in the same coarse cell when the lists were built, rows first .. first of the next run.
 template <int Dim>
 struct Run {
   std::uint32_t first, cell;
@@ -42,58 +46,100 @@ template <int Dim>
 class RelativeMotion {
  public:
   /// Coarse cells over `bounds`, all groups together; `reach` [m]: cut-off and skin. Wider cells where these would be many more than the
-  /// `particles`.
+  /// `particles`. Nobody is followed yet.
   void build(const Bounds<Dim>& bounds, const geometry::Box<Dim>& box, double reach, std::size_t particles) {
     cells_ = Cells<Dim>(
         2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach,
         std::min(4.0 * static_cast<double>(particles) + 64.0, 1e6));
     periodic_ = box.periodic;
-    moved_.assign(cells_.total(), {});
+    runs_.clear();
+    moved_.resize(cells_.total());
     used_.assign(cells_.total(), 0.0);
   }
-  [[nodiscard]] std::uint32_t cell_of(const Vector<Dim>& x) const noexcept { return static_cast<std::uint32_t>(cells_.index(x)); }
-  void start() noexcept { std::fill(moved_.begin(), moved_.end(), Bounds<Dim>{}); }
-  void add(std::span<const Run<Dim>> runs) noexcept {
-    for (const auto& run : runs) moved_[run.cell].add(run.displacement);
+  /// Follows a group from where it is now. Sets first_run: the runs of block b are number first_run[b] .. first_run[b + 1] - 1.
+  void follow(const Blocks& blocks, std::span<const Vector<Dim>> positions, std::vector<std::size_t>& first_run) {
+    const auto for_each_run = [&](std::size_t block, auto&& function) {
+      std::uint32_t last = 0;
+      for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i)
+        if (const auto cell = static_cast<std::uint32_t>(cells_.index(positions[i])); i == blocks.begin(block) || cell != last)
+          function(static_cast<std::uint32_t>(i), last = cell);
+    };
+    first_run.assign(blocks.size() + 1, 0);
+    for_each_block(blocks, [&](std::size_t, std::size_t block) {
+      std::size_t count = 0;
+      for_each_run(block, [&count](std::uint32_t, std::uint32_t) { ++count; });
+      first_run[block + 1] = count;
+    });
+    first_run[0] = runs_.size();
+    for (std::size_t block = 0; block < blocks.size(); ++block) first_run[block + 1] += first_run[block];
+    resize_with_margin(runs_, first_run.back());
+    for_each_block(blocks, [&](std::size_t, std::size_t block) {
+      std::size_t run = first_run[block];
+      for_each_run(block, [&](std::uint32_t i, std::uint32_t cell) { runs_[run++] = {i, cell}; });
+    });
+    by_cell_.sort(runs_.size(), cells_.total(), [this](std::size_t run) { return runs_[run].cell; });
   }
-  /// The largest relative displacement [m] of neighbours anywhere; used(cell): of particles in that cell from all their neighbours.
-  [[nodiscard]] double finish() {
-    return merge_ranges(
-        Ranges(cells_.total(), 256), 0.0,
+  /// Runs `begin` .. `end` - 1, for their displacements to be set.
+  [[nodiscard]] std::span<Run<Dim>> runs(std::size_t begin, std::size_t end) noexcept { return {runs_.data() + begin, end - begin}; }
+
+  struct Wear {
+    double relative = 0.0;  ///< the largest relative displacement [m] of neighbours anywhere
+    double farthest = 0.0;  ///< how far [m] the farthest particle has gone along an axis, whoever goes with it
+  };
+  /// From the displacements of all runs; then used(cell) holds too: the largest of particles in that cell from any of their neighbours.
+  [[nodiscard]] Wear find_wear() {
+    const Ranges cells(cells_.total(), 256);
+    const auto larger = [](double a, double b) { return std::max(a, b); };
+    const double farthest = merge_ranges(
+        cells, 0.0,
+        [this](std::size_t first, std::size_t last) {
+          double result = 0.0;
+          for (std::size_t cell = first; cell < last; ++cell) {
+            Bounds<Dim> moved;
+            for (std::size_t k = by_cell_.begin(cell); k < by_cell_.begin(cell + 1); ++k) moved.add(runs_[by_cell_.rows()[k]].displacement);
+            if (!moved.empty()) result = std::max({result, -moved.lower.minCoeff(), moved.upper.maxCoeff()});
+            moved_[cell] = moved;
+          }
+          return result;
+        },
+        larger);
+    const double relative = merge_ranges(
+        cells, 0.0,
         [this](std::size_t first, std::size_t last) {
           double largest = 0.0;
           for (std::size_t cell = first; cell < last; ++cell) largest = std::max(largest, used_[cell] = largest_around(cell));
           return largest;
         },
-        [](double a, double b) { return std::max(a, b); });
-  }
-  /// How far [m] the farthest particle has gone along an axis, whoever goes with it.
-  [[nodiscard]] double farthest() const noexcept {
-    double result = 0.0;
-    for (const auto& cell : moved_)
-      if (cell.lower[0] <= cell.upper[0]) result = std::max({result, -cell.lower.minCoeff(), cell.upper.maxCoeff()});
-    return result;
+        larger);
+    return {relative, farthest};
   }
   [[nodiscard]] double used(std::uint32_t cell) const noexcept { return used_[cell]; }
-  [[nodiscard]] std::size_t bytes() const noexcept { return moved_.capacity() * sizeof(Bounds<Dim>) + used_.capacity() * sizeof(double); }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return runs_.capacity() * sizeof(Run<Dim>) + by_cell_.bytes() + moved_.capacity() * sizeof(Bounds<Dim>) + used_.capacity() * sizeof(double);
+  }
 
  private:
   [[nodiscard]] double largest_around(std::size_t cell) const noexcept {
     const auto& own = moved_[cell];
-    if (!(own.lower[0] <= own.upper[0])) return 0.0;
+    if (own.empty()) return 0.0;
     std::array<int, Dim> at;
     std::size_t rest = cell;
     for (std::size_t d = 0; d < Dim; ++d) {
       at[d] = static_cast<int>(rest % static_cast<std::size_t>(cells_.count[d]));
       rest /= static_cast<std::size_t>(cells_.count[d]);
     }
-    Bounds<Dim> around = own;
-    add_neighbours(around, at, Dim - 1, 0);
-    return (around.upper - own.lower).cwiseMax(own.upper - around.lower).norm();
+    double largest_squared = 0.0;
+    for_each_around(at, Dim - 1, 0, [&](std::size_t other) {
+      const auto& its = moved_[other];
+      if (!its.empty())
+        largest_squared = std::max(largest_squared, (its.upper - own.lower).cwiseMax(own.upper - its.lower).squaredNorm());
+    });
+    return std::sqrt(largest_squared);
   }
-  void add_neighbours(Bounds<Dim>& around, const std::array<int, Dim>& at, int direction, std::size_t before) const noexcept {
+  template <class Function>
+  void for_each_around(const std::array<int, Dim>& at, int direction, std::size_t before, const Function& function) const noexcept {
     if (direction < 0) {
-      around.add(moved_[before]);
+      function(before);
       return;
     }
     const auto d = static_cast<std::size_t>(direction);
@@ -101,12 +147,14 @@ class RelativeMotion {
     for (int c = at[d] - 1; c <= at[d] + 1; ++c) {
       const int wrapped = periodic_[d] ? (c + count) % count : c;
       if (wrapped >= 0 && wrapped < count)
-        add_neighbours(around, at, direction - 1, before * static_cast<std::size_t>(count) + static_cast<std::size_t>(wrapped));
+        for_each_around(at, direction - 1, before * static_cast<std::size_t>(count) + static_cast<std::size_t>(wrapped), function);
     }
   }
 
   Cells<Dim> cells_;
   std::array<bool, Dim> periodic_{};
+  std::vector<Run<Dim>> runs_;      // of all groups
+  CountingSort by_cell_;            // runs in the order of their cells
   std::vector<Bounds<Dim>> moved_;  // displacements in each cell
   std::vector<double> used_;
 };

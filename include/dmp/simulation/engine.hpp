@@ -100,24 +100,24 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
     using C = LayoutOf<G>;
     if constexpr (evolves<G>) {
       this->with_materials(g, [&](const auto&... law) {
-        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t first, std::size_t last) {
-          const auto one = [&](std::size_t i) {
+        for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
+          follow(g, block, [&](std::size_t i) {
             if (last_dt > 0.0) end(g, i, last_dt);
             if (!(dt > 0.0)) return;
             begin(g, i, dt, time);
             if constexpr (C::has_records) this->pack_one(g, i, dt, law...);
-          };
-          follow(g, range, first, last, one);
+          });
         });
       });
       if (dt > 0.0) this->pack_ghosts(g);
     }
   }
-  /// Calls function(i) for the rows of a range, and keeps account of their displacements.
+  /// Calls function(i) for the rows of a block, and keeps account of their displacements.
   template <class G, class Function>
-  void follow(G& g, std::size_t range, std::size_t first, std::size_t last, const Function& function) {
+  void follow(G& g, std::size_t block, const Function& function) {
+    const std::size_t first = g.blocks.begin(block), last = g.blocks.end(block);
     if constexpr (G::Mobility::moves && LayoutOf<G>::has_pairs) {
-      auto& runs = g.runs[range];
+      const auto runs = this->runs_of(g, block);
       for (std::size_t r = 0; r < runs.size(); ++r) {
         const std::size_t end_of_run = r + 1 < runs.size() ? runs[r + 1].first : last;
         neighbours::Bounds<Dim> bounds;
@@ -204,8 +204,7 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
     for_each_group([&](auto& g) {
       using G = std::remove_cvref_t<decltype(g)>;
       if constexpr (LayoutOf<G>::has_substeps && LayoutOf<G>::has_pairs)
-        for_each_range(g.blocks.ranges(),
-                       [&](std::size_t range, std::size_t first, std::size_t last) { follow(g, range, first, last, [](std::size_t) {}); });
+        for_each_block(g.blocks, [&](std::size_t, std::size_t block) { follow(g, block, [](std::size_t) {}); });
     });
   }
   template <class Function>

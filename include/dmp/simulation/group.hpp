@@ -30,7 +30,7 @@ struct Neighbourhood<Dim, true> {
   neighbours::Ghosts<Dim> ghosts{};
   neighbours::CellGrid<Dim> grid{};
   AlignedVector<Vector<Dim>> at_list_build{};             ///< positions when the neighbour lists were built
-  std::vector<std::vector<neighbours::Run<Dim>>> runs{};  ///< of particles that were in one coarse cell then, per range of rows
+  std::vector<std::size_t> first_run{};                   ///< of each block, of those whose displacements RelativeMotion wants
   std::vector<std::uint8_t> level{};                      ///< of each block: how far its lists must be read (PairList)
 };
 }  // namespace detail

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -82,31 +83,26 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
   [[nodiscard]] bool lists_are_worn() {
     if constexpr (has_pairs) {
       if (this->exclusions_are_worn()) return true;
-      relative_motion_.start();
+      const auto wear = relative_motion_.find_wear();
+      if (!(wear.relative <= skin_)) return true;
+      if (wear.farthest > longest_cutoff_) return true;  // time to go back into the periodic box
       for_each_group_in_pairs([this](auto& g) {
-        for (const auto& runs : g.runs) relative_motion_.add(runs);
-      });
-      if (!(relative_motion_.finish() <= skin_)) return true;
-      if (relative_motion_.farthest() > longest_cutoff_) return true;  // time to go back into the periodic box
-      for_each_group_in_pairs([this](auto& g) {
-        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t, std::size_t) {
-          std::size_t block = g.blocks.first_block(range);
+        for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
+          constexpr auto levels = static_cast<double>(neighbours::PairList::levels);
           double used = 0.0;
-          const auto close_block = [&] {
-            constexpr auto levels = static_cast<double>(neighbours::PairList::levels);
-            const double level = skin_ > 0.0 ? std::ceil(used / skin_ * levels) - 1.0 : levels - 1.0;
-            g.level[block++] = static_cast<std::uint8_t>(std::clamp(level, 0.0, levels - 1.0));
-            used = 0.0;
-          };
-          for (const auto& run : g.runs[range]) {
-            while (run.first >= g.blocks.end(block)) close_block();
-            used = std::max(used, relative_motion_.used(run.cell));
-          }
-          while (block < g.blocks.first_block(range + 1)) close_block();
+          for (const auto& run : runs_of(g, block)) used = std::max(used, relative_motion_.used(run.cell));
+          const double level = skin_ > 0.0 ? std::ceil(used / skin_ * levels) - 1.0 : levels - 1.0;
+          g.level[block] = static_cast<std::uint8_t>(std::clamp(level, 0.0, levels - 1.0));
         });
       });
     }
     return false;
+  }
+
+  /// Of the particles of a block, for their displacements since the lists were built.
+  template <class G>
+  [[nodiscard]] std::span<neighbours::Run<Dim>> runs_of(const G& g, std::size_t block) noexcept {
+    return relative_motion_.runs(g.first_run[block], g.first_run[block + 1]);
   }
 
  private:
@@ -216,16 +212,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
       using G = std::remove_cvref_t<decltype(g)>;
       if constexpr (LayoutOf<G>::has_pairs) {
         if constexpr (G::Mobility::moves) g.at_list_build = g.positions();
-        g.runs.resize(g.blocks.ranges().size());
-        for_each_range(g.blocks.ranges(), [&](std::size_t range, std::size_t, std::size_t) {
-          auto& runs = g.runs[range];
-          runs.clear();
-          for (std::size_t block = g.blocks.first_block(range); block < g.blocks.first_block(range + 1); ++block)
-            for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i)
-              if (const std::uint32_t cell = relative_motion_.cell_of(g.positions()[i]);
-                  i == g.blocks.begin(block) || cell != runs.back().cell)
-                runs.push_back({static_cast<std::uint32_t>(i), cell});
-        });
+        relative_motion_.follow(g.blocks, g.positions(), g.first_run);
         g.level.assign(g.blocks.size(), 0);
       }
     });
