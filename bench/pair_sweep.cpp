@@ -67,12 +67,12 @@ struct Sample {
     }
     rates.resize(positions.size());
   }
-  /// Calls sweep(i, list of i, adder of the sums) for all particles.
+  /// Calls sweep(i, lists of i, adder of the sums) for all particles.
   template <class Sweep>
   void for_each(const Sweep& sweep) {
     for (std::size_t block = 0; block < blocks.size(); ++block)
       for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i)
-        sweep(i, pairs.of(block, i), sums.adder(i + 1, blocks.end(block), blocks.far_row(block)));
+        sweep(i, pairs.of(block, i), sums.adder());
   }
 };
 
@@ -113,14 +113,14 @@ void pair_sweep_composed(benchmark::State& state) {
   };
   const Source source{s.records.reader()};
   for (auto _ : state)
-    s.for_each([&](std::size_t i, std::span<const std::uint32_t> list, [[maybe_unused]] const auto& add) {
+    s.for_each([&](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] const auto& add) {
       Seen self;
       copy_fields(Record{}, self, s.records.template spread<Lanes>(i));
       self.mass = mass;
       View<3, Lanes, Law::writes> sums;
       sweep::set_zero(sums);
-      if constexpr (Precision::pairs_once) sweep::sum_pairs_of_both<3>(self, source, list, sums, add, law);
-      else sweep::sum_pairs<3>(self, source, list, sums, law);
+      if constexpr (Precision::pairs_once) sweep::sum_pairs_of_both<3>(self, source, lists.once, sums, add, law);
+      sweep::sum_pairs<3>(self, source, lists.others, sums, law);
       const auto total = s.sums.take(i, sums);
       s.rates[i] = {total.acceleration[0], total.acceleration[1], total.acceleration[2], total.density_rate};
     });
@@ -134,26 +134,30 @@ void pair_sweep_by_hand(benchmark::State& state) {
   const double h = support_radius, gradient = -20.0 * 21.0 / (2.0 * std::numbers::pi * h * h * h) / (h * h);
   const auto records = s.records.reader();
   for (auto _ : state)
-    s.for_each([&](std::size_t i, std::span<const std::uint32_t> list, [[maybe_unused]] const auto& add) {
+    s.for_each([&](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] const auto& add) {
       const auto p = s.records.template spread<Lanes>(i);
       Lanes a[3] = {0.0, 0.0, 0.0}, rate = 0.0;
-      for (std::size_t k = 0; k < list.size(); k += Lanes::width) {
-        const auto q = records.gather(list.data() + k);
-        const auto apart = records.separation(p.position, q.position);
-        const Lanes x = apart[0], y = apart[1], z = apart[2];
-        const Lanes u = p.velocity[0] - q.velocity[0], v = p.velocity[1] - q.velocity[1], w = p.velocity[2] - q.velocity[2];
-        const Lanes r2 = x * x + y * y + z * z, t = max(h - sqrt(r2), 0.0) * (1.0 / h), factor = mass * gradient * t * t * t;
-        const Lanes approach = x * u + y * v + z * w;
-        const Lanes viscous = -2.0 * alpha * sound_speed * h * min(approach, 0.0) / ((r2 + 0.01 * h * h) * (p.density + q.density));
-        const Lanes force = (p.pressure_term + q.pressure_term + viscous) * factor;
-        a[0] -= force * x, a[1] -= force * y, a[2] -= force * z, rate += factor * approach;
-        if constexpr (Precision::pairs_once) {
-          View<3, Lanes, Law::writes> reaction;
-          reaction.acceleration = {{force * x, force * y, force * z}};
-          reaction.density_rate = factor * approach;
-          add(list.data() + k, reaction);
+      const auto sum = [&](std::span<const std::uint32_t> list, auto of_both) __attribute__((always_inline)) {
+        for (std::size_t k = 0; k < list.size(); k += Lanes::width) {
+          const auto q = records.gather(list.data() + k);
+          const auto apart = records.separation(p.position, q.position);
+          const Lanes x = apart[0], y = apart[1], z = apart[2];
+          const Lanes u = p.velocity[0] - q.velocity[0], v = p.velocity[1] - q.velocity[1], w = p.velocity[2] - q.velocity[2];
+          const Lanes r2 = x * x + y * y + z * z, t = max(h - sqrt(r2), 0.0) * (1.0 / h), factor = mass * gradient * t * t * t;
+          const Lanes approach = x * u + y * v + z * w;
+          const Lanes viscous = -2.0 * alpha * sound_speed * h * min(approach, 0.0) / ((r2 + 0.01 * h * h) * (p.density + q.density));
+          const Lanes force = (p.pressure_term + q.pressure_term + viscous) * factor;
+          a[0] -= force * x, a[1] -= force * y, a[2] -= force * z, rate += factor * approach;
+          if constexpr (of_both) {
+            View<3, Lanes, Law::writes> reaction;
+            reaction.acceleration = {{force * x, force * y, force * z}};
+            reaction.density_rate = factor * approach;
+            add(list.data() + k, reaction);
+          }
         }
-      }
+      };
+      if constexpr (Precision::pairs_once) sum(lists.once, std::true_type{});
+      sum(lists.others, std::false_type{});
       View<3, Lanes, Law::writes> sums;
       sums.acceleration = {{a[0], a[1], a[2]}};
       sums.density_rate = rate;

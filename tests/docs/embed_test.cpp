@@ -147,7 +147,7 @@ std::vector<std::array<double, 3>> forces(const std::vector<dmp::Vector<3>>& pos
   dmp::for_each_block(blocks, [&](std::size_t, std::size_t block) {
     for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
       dmp::View<3, Lanes, Force> sums{};
-      dmp::sweep::sum_pairs<3>(records.spread<Lanes>(i), records.reader(), pairs.of(block, i), sums, law);
+      dmp::sweep::sum_pairs<3>(records.spread<Lanes>(i), records.reader(), pairs.of(block, i).others, sums, law);
       for (int d = 0; d < 3; ++d) result[i][static_cast<std::size_t>(d)] = sum(sums.force[d]);
     }
   });

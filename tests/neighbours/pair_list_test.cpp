@@ -55,11 +55,11 @@ struct Search {
     return same_group ? static_cast<std::uint32_t>(blocks.far_row(block)) : owned();
   }
 
-  /// f(block, i, whole list)
+  /// f(block, i, all entries)
   template <class Function>
   void for_each_particle(const Function& f) const {
     for (std::size_t block = 0; block < blocks.size(); ++block)
-      for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) f(block, i, list.of(block, i));
+      for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) f(block, i, list.all(block, i));
   }
   /// What a list says, without the filler, as images in order.
   [[nodiscard]] std::vector<test::Image<Dim>> images(std::span<const std::uint32_t> rows) const {
@@ -75,39 +75,48 @@ struct Search {
     std::sort(result.begin(), result.end());
     return result;
   }
-  /// Whom particle i of `block` must list: all within `radius`, but of its own block only those further down if pairs are listed once.
-  [[nodiscard]] std::vector<test::Image<Dim>> expected(std::size_t block, std::size_t i, double radius) const {
+  /// Whom particle i of `block` must list: all within `radius`, but of its own block only those further down, in a list of their own, if
+  /// pairs are listed once.
+  [[nodiscard]] std::vector<test::Image<Dim>> expected(bool listed_once, std::size_t block, std::size_t i, double radius) const {
     auto near = test::all_near<Dim>(of[i], radius, same_group ? static_cast<std::int64_t>(i) : -1, sources, box);
-    if (same_group && once)
-      std::erase_if(near, [&](const test::Image<Dim>& image) {
-        return image.second == std::array<int, Dim>{} && image.first >= blocks.begin(block) && image.first < i;
-      });
+    std::erase_if(near, [&](const test::Image<Dim>& image) {
+      const bool in_block = same_group && once && image.second == std::array<int, Dim>{} && image.first >= blocks.begin(block) && image.first < blocks.end(block);
+      return listed_once != in_block || (in_block && image.first < i);
+    });
     return near;
   }
-  /// Particles whose list is not what looking at every pair gives, or not filled as it should be.
+  /// Particles whose lists are not what looking at every pair gives, or not filled as they should be.
   [[nodiscard]] int wrong_lists() const {
     int wrong = 0;
-    for_each_particle([&](std::size_t block, std::size_t i, std::span<const std::uint32_t> rows) {
-      const auto listed = images(rows), near = expected(block, i, reach()), around = expected(block, i, reach() + margin);
-      const bool right = std::adjacent_find(listed.begin(), listed.end()) == listed.end() && std::includes(listed.begin(), listed.end(), near.begin(), near.end()) &&
-                         std::includes(around.begin(), around.end(), listed.begin(), listed.end());
-      const bool whole_packs = rows.size() == (listed.size() + pack - 1) / pack * pack;
-      const auto first_filler = rows.begin() + static_cast<std::ptrdiff_t>(std::min(listed.size(), rows.size()));
-      const bool fillers_last = std::all_of(first_filler, rows.end(), [&](std::uint32_t row) { return row == filler(block); });
-      wrong += !(right && whole_packs && fillers_last);
+    for_each_particle([&](std::size_t block, std::size_t i, auto) {
+      const auto lists = list.of(block, i);
+      for (const bool listed_once : {true, false}) {
+        const auto rows = listed_once ? lists.once : lists.others;
+        const auto listed = images(rows), near = expected(listed_once, block, i, reach()), around = expected(listed_once, block, i, reach() + margin);
+        const bool right = std::adjacent_find(listed.begin(), listed.end()) == listed.end() && std::includes(listed.begin(), listed.end(), near.begin(), near.end()) &&
+                           std::includes(around.begin(), around.end(), listed.begin(), listed.end());
+        const bool whole_packs = rows.size() == (listed.size() + pack - 1) / pack * pack;
+        const auto first_filler = rows.begin() + static_cast<std::ptrdiff_t>(std::min(listed.size(), rows.size()));
+        const bool fillers_last = std::all_of(first_filler, rows.end(), [&](std::uint32_t row) { return row == filler(block); });
+        wrong += !(right && whole_packs && fillers_last);
+      }
+      const auto all = list.all(block, i);
+      wrong += !(all.data() == lists.once.data() && all.data() + lists.once.size() == lists.others.data() && all.size() == lists.once.size() + lists.others.size());
     });
     return wrong;
   }
-  /// Particles and levels at which somebody is missing who can act, or the list is not the beginning of the whole one.
+  /// Particles and levels at which somebody is missing who can act, or a list is not the beginning of the whole one.
   [[nodiscard]] int wrong_levels() const {
     int wrong = 0;
-    for_each_particle([&](std::size_t block, std::size_t i, std::span<const std::uint32_t> rows) {
-      for (std::size_t level = 0; level < PairList::levels; ++level) {
-        const auto read = list.of(block, i, level);
-        const auto seen = images(read), near = expected(block, i, cutoff + skin * static_cast<double>(level + 1) / PairList::levels);
-        wrong += !(read.data() == rows.data() && read.size() <= rows.size() && read.size() % pack == 0 &&
-                   std::includes(seen.begin(), seen.end(), near.begin(), near.end()));
-      }
+    for_each_particle([&](std::size_t block, std::size_t i, auto) {
+      const auto lists = list.of(block, i);
+      for (std::size_t level = 0; level < PairList::levels; ++level)
+        for (const bool listed_once : {true, false}) {
+          const auto rows = listed_once ? lists.once : lists.others, read = listed_once ? list.of(block, i, level).once : list.of(block, i, level).others;
+          const auto seen = images(read), near = expected(listed_once, block, i, cutoff + skin * static_cast<double>(level + 1) / PairList::levels);
+          wrong += !(read.data() == rows.data() && read.size() <= rows.size() && read.size() % pack == 0 &&
+                     std::includes(seen.begin(), seen.end(), near.begin(), near.end()));
+        }
     });
     return wrong;
   }
@@ -216,7 +225,7 @@ TEST_CASE("the lower levels are shorter: a list just built is read as far as a q
   search.run();
   std::array<double, PairList::levels> entries{};
   search.for_each_particle([&](std::size_t block, std::size_t i, auto) {
-    for (std::size_t level = 0; level < PairList::levels; ++level) entries[level] += static_cast<double>(search.list.of(block, i, level).size());
+    for (std::size_t level = 0; level < PairList::levels; ++level) entries[level] += static_cast<double>(search.list.of(block, i, level).once.size() + search.list.of(block, i, level).others.size());
   });
   for (std::size_t level = 0; level < PairList::levels; ++level) {
     const double radius = 0.2 + 0.1 * static_cast<double>(level + 1) / PairList::levels;
@@ -276,7 +285,8 @@ TEST_CASE("lists do not depend on the number of threads, entry by entry") {
     CHECK(search.blocks.ranges().size() == static_cast<std::size_t>(count));
     std::vector<std::vector<std::uint32_t>> lists;
     search.for_each_particle([&](std::size_t block, std::size_t i, auto) {
-      for (std::size_t level = 0; level < PairList::levels; ++level) lists.emplace_back(search.list.of(block, i, level).begin(), search.list.of(block, i, level).end());
+      for (std::size_t level = 0; level < PairList::levels; ++level)
+        for (const auto list : {search.list.of(block, i, level).once, search.list.of(block, i, level).others}) lists.emplace_back(list.begin(), list.end());
     });
     if (first.empty()) first = lists;
     CHECK(lists == first);
@@ -346,14 +356,19 @@ TEST_CASE("bonded particles leave the lists, as ghosts too, and the fillers clos
     search.for_each_particle([&](std::size_t block, std::size_t i, auto rows) {
       CHECK(rows.size() % pack == 0);
       std::vector<std::uint32_t> listed, expected;
+      std::array<std::size_t, 2> expected_in{};  // once, and at both ends
       for (const auto& image : search.images(rows)) listed.push_back(image.first);
       for (std::uint32_t j = 0; j < 12; ++j) {
         const int around = std::abs(static_cast<int>(i) - static_cast<int>(j)), apart = std::min(around, 12 - around);
         const bool listed_there = apart == around && j < i && j >= search.blocks.begin(block);
-        if (apart > reach && apart <= 4 && !listed_there) expected.push_back(j);
+        if (!(apart > reach && apart <= 4) || listed_there) continue;
+        expected.push_back(j);
+        ++expected_in[apart == around && j < search.blocks.end(block) && j >= search.blocks.begin(block) ? 0 : 1];
       }
       CHECK(listed == expected);
-      CHECK(rows.size() == (expected.size() + pack - 1) / pack * pack);
+      const auto lists = search.list.of(block, i);
+      CHECK(lists.once.size() == (expected_in[0] + pack - 1) / pack * pack);
+      CHECK(lists.others.size() == (expected_in[1] + pack - 1) / pack * pack);
     });
   }
 }

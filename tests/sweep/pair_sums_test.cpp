@@ -93,9 +93,10 @@ struct Sample {
         View<Dim, Lanes, Writes> lanes;
         sweep::set_zero(lanes);
         const auto self = records.template spread<Lanes>(i);
-        const auto add = sums.adder(i + 1, blocks.end(block), blocks.far_row(block));
-        if constexpr (Precision::pairs_once) sweep::sum_pairs_of_both<Dim>(self, records.reader(), pairs.of(block, i, level), lanes, add, law...);
-        else sweep::sum_pairs<Dim>(self, records.reader(), pairs.of(block, i, level), lanes, law...);
+        const auto add = sums.adder();
+        const auto lists = pairs.of(block, i, level);
+        if constexpr (Precision::pairs_once) sweep::sum_pairs_of_both<Dim>(self, records.reader(), lists.once, lanes, add, law...);
+        sweep::sum_pairs<Dim>(self, records.reader(), lists.others, lanes, law...);
         result.total.push_back(numbers(sums.take(i, lanes)));
       }
     View<Dim, Lanes, Writes> nothing;
@@ -378,7 +379,7 @@ TEST_CASE("two groups: each sums over the other's particles at its own end, and 
     for (std::size_t i = 0; i < own.size(); ++i) {
       View<3, Lanes, decltype(law)::writes> lanes;
       sweep::set_zero(lanes);
-      sweep::sum_pairs<3>(own_records.template spread<Lanes>(i), other_records.reader(), pairs.of(0, i), lanes, law);
+      sweep::sum_pairs<3>(own_records.template spread<Lanes>(i), other_records.reader(), pairs.of(0, i).others, lanes, law);
       result.push_back(numbers(particles::Sums<3, decltype(law)::writes>::totals(lanes)));
     }
     return result;

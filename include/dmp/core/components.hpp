@@ -14,6 +14,10 @@ struct Components {
 
   friend constexpr Components operator+(Components a, const Components& b) noexcept { return a += b; }
   friend constexpr Components operator-(Components a, const Components& b) noexcept { return a -= b; }
+  friend constexpr Components operator-(Components a) noexcept {
+    unrolled<Dim>([&](auto d) __attribute__((always_inline)) { a.component[d] = -a.component[d]; });
+    return a;
+  }
   friend constexpr Components operator*(const T& factor, Components a) noexcept {
     unrolled<Dim>([&](auto d) __attribute__((always_inline)) { a.component[d] = factor * a.component[d]; });
     return a;

@@ -19,8 +19,8 @@ namespace dmp::neighbours {
 
 /// For each particle of one group, the rows of its neighbours in another (or the same) group. A pair in the same block of the same group is
 /// listed once, at the particle further up, and its law evaluated for both; all others (ghosts, other groups, other blocks) are listed at
-/// each end that evolves. A list is ordered by how much of the skin must have been used up before a pair can act: a sweep reads only as far
-/// as its `level`. It fills whole packs of `pack` entries with rows far away from everything.
+/// each end that evolves. Each of these two lists is ordered by how much of the skin must have been used up before a pair can act: a sweep
+/// reads only as far as its `level`. It fills whole packs of `pack` entries with rows far away from everything.
 class PairList {
  public:
   /// The particles that are listed: rows 0 .. owned - 1 of the source group; then rows far away from everything (Blocks::far_rows for each
@@ -56,45 +56,66 @@ class PairList {
       auto& rows = rows_[block];
       rows.clear();
       const std::size_t first = blocks.begin(block), last = blocks.end(block);
+      Found& found = found_[thread].found;
+      std::vector<std::uint32_t>& beyond = found_[thread].beyond;
+      const bool once = sources.same_group && sources.once;
+      const auto block_first = static_cast<std::uint32_t>(first), once_size = static_cast<std::uint32_t>(once ? last - first : 0);
       for (std::size_t i = first; i < last; ++i) {
         if ((i - first) % 256 == 0) make_room(rows, i - first, last - first);
-        Found& found = found_[thread].found;
+        const auto row = static_cast<std::uint32_t>(i), left_out = once ? block_first : row;  // those further up list it; and itself
         found.size = 0;
-        const auto begin_once = static_cast<std::uint32_t>(sources.once ? first : i), row = static_cast<std::uint32_t>(i);
-        grid.find(positions[i], cutoff + skin, found, {begin_once, sources.same_group ? row + 1 - begin_once : 0});  // not itself
+        grid.find(positions[i], cutoff + skin, found, {left_out, sources.same_group ? row + 1 - left_out : 0});
+        name_rows(found, row, sources, excluded);
         At& at = at_[i];
         at.first = static_cast<std::uint32_t>(rows.size() / pack);
         const std::size_t begin = rows.size();
-        rows.resize(begin + found.size + pack + Lanes::width);
-        name_rows(found, row, sources, excluded);
-        std::size_t end = begin;
+        rows.resize(begin + found.size + 2 * pack + Lanes::width);
+        if (beyond.size() < found.rows.size() + Lanes::width) beyond.resize(found.rows.size() + Lanes::width);
+        std::size_t end = begin, end_beyond = 0;
         for (std::size_t l = 0; l < levels; ++l) {
           const Lanes from(l > 0 ? within[l - 1] : 0.0f), to(within[l]);
           for (std::size_t k = 0; k < found.size; k += Lanes::width) {
             const Lanes fraction = Lanes::load(found.fraction.data() + k);
-            const unsigned in_level = (fraction >= from && fraction < to).bits();
             typename Lanes::Rows numbers;
             __builtin_memcpy(&numbers, found.rows.data() + k, sizeof(numbers));
-            compress<Lanes::width>(numbers, in_level, rows.data() + end);
-            end += static_cast<std::size_t>(__builtin_popcount(in_level));
+            const auto in_level = fraction >= from && fraction < to;
+            const Mask<float, Lanes::width> listed_once{numbers - block_first < once_size};
+            const unsigned here = (in_level && listed_once).bits(), others = in_level.bits() & ~here;
+            compress<Lanes::width>(numbers, here, rows.data() + end);
+            end += static_cast<std::size_t>(__builtin_popcount(here));
+            compress<Lanes::width>(numbers, others, beyond.data() + end_beyond);
+            end_beyond += static_cast<std::size_t>(__builtin_popcount(others));
           }
-          const std::size_t packs = (end - begin + pack - 1) / pack;
-          if (packs > 0xffff)
-            throw ParameterError("neighbours::PairList: a particle must have fewer than " + std::to_string(0xffff * pack) +
-                                 " neighbours, got " + std::to_string(end - begin));
-          at.packs[l] = static_cast<std::uint16_t>(packs);
+          at.once[l] = packs(end - begin);
+          at.others[l] = packs(end_beyond);
         }
-        for (; (end - begin) % pack != 0; ++end)
-          rows[end] = sources.owned + static_cast<std::uint32_t>(sources.same_group ? Blocks::far_rows * block : 0);
+        const std::uint32_t far = sources.owned + static_cast<std::uint32_t>(sources.same_group ? Blocks::far_rows * block : 0);
+        const auto fill_up = [&] {
+          for (; (end - begin) % pack != 0; ++end) rows[end] = far;
+        };
+        fill_up();
+        std::copy_n(beyond.data(), end_beyond, rows.data() + end);
+        end += end_beyond;
+        fill_up();
         rows.resize(end);
       }
     });
   }
 
+  struct Neighbours {
+    std::span<const std::uint32_t> once;    ///< of the same block, further down: the law serves both
+    std::span<const std::uint32_t> others;  ///< those that are listed at each end
+  };
   /// Of particle i, which lies in `block`, the neighbours that can act while no more than (level + 1)/levels of the skin is used up.
-  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t block, std::size_t i, std::size_t level = levels - 1) const noexcept {
+  [[nodiscard, gnu::always_inline]] Neighbours of(std::size_t block, std::size_t i, std::size_t level = levels - 1) const noexcept {
     const At& at = at_[i];
-    return {rows_[block].data() + pack_ * at.first, pack_ * at.packs[level]};
+    const std::uint32_t* const begin = rows_[block].data() + pack_ * at.first;
+    return {{begin, pack_ * at.once[level]}, {begin + pack_ * at.once[levels - 1], pack_ * at.others[level]}};
+  }
+  /// All entries of particle i.
+  [[nodiscard]] std::span<const std::uint32_t> all(std::size_t block, std::size_t i) const noexcept {
+    const Neighbours lists = of(block, i);
+    return {lists.once.data(), lists.once.size() + lists.others.size()};
   }
   /// Entries of a block, what a sweep over it costs.
   [[nodiscard]] double entries(const Blocks& blocks, std::size_t block) const noexcept {
@@ -109,13 +130,23 @@ class PairList {
 
  private:
   struct At {
-    std::uint32_t first;                      // pack, counted from the start of the block
-    std::array<std::uint16_t, levels> packs;  // of each level, with those before
+    std::uint32_t first;                             // pack, counted from the start of the block
+    std::array<std::uint16_t, levels> once, others;  // packs of each level, with those before
   };
   using Lanes = Pack<float, native_width<float>>;
   struct alignas(64) FoundOfThread {  // no two threads share a cache line
     Found found;
+    std::vector<std::uint32_t> beyond;
   };
+
+  /// Packs that hold some entries of one particle.
+  [[nodiscard]] std::uint16_t packs(std::size_t entries) const {
+    const std::size_t result = (entries + pack_ - 1) / pack_;
+    if (result > 0xffff)
+      throw ParameterError("neighbours::PairList: a particle must have fewer than " + std::to_string(0xffff * pack_) +
+                           " neighbours, got " + std::to_string(entries));
+    return static_cast<std::uint16_t>(result);
+  }
 
   /// Names found particles by their rows, and takes out those that are excluded: their fraction becomes infinite.
   static void name_rows(Found& found, std::uint32_t i, const Sources& sources, const Exclusions& excluded) {

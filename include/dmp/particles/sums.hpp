@@ -34,32 +34,23 @@ class Sums<Dim, Fields<Field...>> {
     std::fill(data_.data() + first * stride, data_.data() + last * stride, 0.0);
   }
 
-  /// Adds lane l to record index[l] if that lies in first .. last - 1, and otherwise to record elsewhere + l.
+  /// Adds lane l to record index[l].
   struct Adder {
     double* data;
-    std::uint32_t first, last, elsewhere;
 
     template <class Real, int Width>
     [[gnu::always_inline]] void operator()(const std::uint32_t* index, view<Pack<Real, Width>>& lanes) const noexcept {
-      static_assert(Width <= Blocks::far_rows);
-      typename Pack<Real, Width>::Rows rows;
-      __builtin_memcpy(&rows, index, sizeof(rows));
-      rows = rows - first < last - first ? rows : Pack<Real, Width>::lane_numbers() + elsewhere;
-      std::uint32_t to[Width];
-      __builtin_memcpy(to, &rows, sizeof(rows));
       Pack<Real, Width> numbers_of[stride > 0 ? stride : 1];
       detail::for_each_number(
           lanes, [&numbers_of](auto slot, Pack<Real, Width> number) __attribute__((always_inline)) { numbers_of[slot] = number; });
       unrolled<Width / width>([&](auto part) __attribute__((always_inline)) {
         Pack<double, width> doubles[stride > 0 ? stride : 1];
         unrolled<numbers>([&](auto slot) __attribute__((always_inline)) { doubles[slot] = part_of<part, width>(numbers_of[slot]); });
-        add_transposed<numbers>(data, stride, to + part * width, doubles);
+        add_transposed<numbers>(data, stride, index + part * width, doubles);
       });
     }
   };
-  [[nodiscard]] Adder adder(std::size_t first, std::size_t last, std::size_t elsewhere) noexcept {
-    return {data_.data(), static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last), static_cast<std::uint32_t>(elsewhere)};
-  }
+  [[nodiscard]] Adder adder() noexcept { return {data_.data()}; }
 
   /// Sum over the lanes of every number.
   template <class Real, int Width>

@@ -125,7 +125,7 @@ void reject_overlap(const Engine<Dim, Rest...>& engine, const A& a, const B& b, 
   if constexpr (A::Mobility::evolves)
     for (std::size_t block = 0; block < a.blocks.size(); ++block)
       for (std::size_t i = a.blocks.begin(block); i < a.blocks.end(block); ++i)
-        for (const std::uint32_t row : pairs.of(block, i)) {
+        for (const std::uint32_t row : pairs.all(block, i)) {
           if (row >= b.size() && row < b.first_ghost()) continue;  // fills up the pack
           const std::size_t j = b.sources(false).original(row);
           const double distance = neighbours::minimum_image<Dim>(a.positions()[i] - b.positions()[j], engine.box()).norm();

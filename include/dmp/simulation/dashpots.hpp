@@ -161,7 +161,7 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
       using G = std::remove_cvref_t<decltype(g)>;
       for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
         for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
-          const auto add = g.sums.adder(i + 1, g.blocks.end(block), g.blocks.far_row(block));
+          const auto add = g.sums.adder();
           for_each_item([&](auto& active) {
             using I = std::remove_cvref_t<decltype(active.item)>;
             if constexpr (detail::has_implicit_dashpots<I>) {

@@ -175,11 +175,11 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
   }
   /// What laws say of a particle and its partners in one list; `Within`: these are of the same group.
   template <class Source, bool Within, class Self, class Sums, class Add, class... Law>
-  [[gnu::always_inline]] void pairs(const Self& self, std::span<const std::uint32_t> neighbours, Sums& sums, const Add& add,
+  [[gnu::always_inline]] void pairs(const Self& self, const neighbours::PairList::Neighbours& neighbours, Sums& sums, const Add& add,
                                     const Law&... law) const noexcept {
     const auto source = this->template group<Source>().reader();
-    if constexpr (Within && Precision::pairs_once) sweep::sum_pairs_of_both<Dim>(self, source, neighbours, sums, add, law...);
-    else sweep::sum_pairs<Dim>(self, source, neighbours, sums, law...);
+    if constexpr (Within && Precision::pairs_once) sweep::sum_pairs_of_both<Dim>(self, source, neighbours.once, sums, add, law...);
+    sweep::sum_pairs<Dim>(self, source, neighbours.others, sums, law...);
   }
 
   template <class I, class Function>
@@ -202,7 +202,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
     for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
       const std::size_t end = g.blocks.end(block);
       for (std::size_t i = g.blocks.begin(block); i < end; ++i) {
-        const auto add = sums_of_partners.adder(i + 1, end, g.blocks.far_row(block));
+        const auto add = sums_of_partners.adder();
         const auto self = g.template spread<Lanes>(i);
         View<Dim, Lanes, typename Law::sums> sums;
         sweep::set_zero(sums);
@@ -235,7 +235,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
         const std::size_t end = g.blocks.end(block);
         [[maybe_unused]] const double inverse_mass = 1.0 / g.mass;
         for (std::size_t i = g.blocks.begin(block); i < end; ++i) {
-          const auto add = g.sums.adder(i + 1, end, g.blocks.far_row(block));
+          const auto add = g.sums.adder();
           View<Dim, double, typename C::writes> total;
           if constexpr (C::has_records) {
             View<Dim, Lanes, typename C::writes> sums;

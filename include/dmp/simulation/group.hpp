@@ -115,14 +115,15 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
   }
   /// To be read by loops: views of the records index[0 .. width - 1], with the constants of the group.
   struct Reader {
+    using Constants = typename Layout::constants;
     typename Records::Reader records;
-    View<Dim, double, typename Layout::constants> constants;
+    View<Dim, double, Constants> constants;
 
     [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
       using Lanes = typename Records::Lanes;
       View<Dim, Lanes, typename Layout::seen> view;
       copy_fields(typename Layout::record{}, view, records.gather(index));
-      spread_fields<Lanes>(typename Layout::constants{}, view, constants);
+      spread_fields<Lanes>(Constants{}, view, constants);
       return view;
     }
     template <class Position>

@@ -32,11 +32,11 @@ template <bool Velocity, int Dim, class Source, class I, class J>
   using T = std::remove_cvref_t<decltype(i.position[0])>;
   Pair<Dim, T> pair;
   if constexpr (requires { source.separation(i.position, j.position); }) pair.separation = source.separation(i.position, j.position);
-  else pair.separation = i.position - j.position;
+  else pair.separation = -(j.position - i.position);
   pair.distance_squared = dot(pair.separation, pair.separation);
   pair.distance = sqrt(pair.distance_squared);
   if constexpr (Velocity) {
-    pair.relative_velocity = i.velocity - j.velocity;
+    pair.relative_velocity = -(j.velocity - i.velocity);
     pair.approach = dot(pair.separation, pair.relative_velocity);
   }
   return pair;
@@ -70,7 +70,7 @@ template <int Dim, class I, class Source, class Sums, class... Law>
 }
 
 /// The same for pairs that are listed once: what the laws say of the partners goes to `add(index, sums)`. The laws are asked twice, once
-/// from either side; what is the same for both the compiler computes once.
+/// from either side; what is the same for both the compiler computes once. Particles of a source with Source::Constants have these in common.
 template <int Dim, class I, class Source, class Sums, class Add, class... Law>
 [[gnu::always_inline]] inline void sum_pairs_of_both(const I& particle, const Source source, std::span<const std::uint32_t> neighbours,
                                                      Sums& total, const Add add, const Law... law) noexcept {
@@ -79,7 +79,8 @@ template <int Dim, class I, class Source, class Sums, class Add, class... Law>
   const I i = particle;
   Sums sums = total;
   for (std::size_t k = 0; k < neighbours.size(); k += width) {
-    const auto j = source.gather(neighbours.data() + k);
+    auto j = source.gather(neighbours.data() + k);
+    if constexpr (requires { typename Source::Constants; }) copy_fields(typename Source::Constants{}, j, i);
     const auto pair = pair_of<velocity, Dim>(source, i, j);
     (law.add(pair, i, j, sums), ...);
     const auto seen_from_j = reversed<velocity>(pair);
