@@ -53,7 +53,7 @@ class PairList {
       within[l] = static_cast<float>(radius * radius / (longest * longest) * (1.0 + 1e-6));
     }
     for_each_block(blocks, [&](std::size_t thread, std::size_t block) {
-      auto& rows = rows_[block];
+      auto& rows = found_[thread].listed;
       rows.clear();
       const std::size_t first = blocks.begin(block), last = blocks.end(block);
       Found& found = found_[thread].found;
@@ -61,7 +61,6 @@ class PairList {
       const bool once = sources.same_group && sources.once;
       const auto block_first = static_cast<std::uint32_t>(first), once_size = static_cast<std::uint32_t>(once ? last - first : 0);
       for (std::size_t i = first; i < last; ++i) {
-        if ((i - first) % 256 == 0) make_room(rows, i - first, last - first);
         const auto row = static_cast<std::uint32_t>(i), left_out = once ? block_first : row;  // those further up list it; and itself
         found.size = 0;
         grid.find(positions[i], cutoff + skin, found, {left_out, sources.same_group ? row + 1 - left_out : 0});
@@ -99,6 +98,7 @@ class PairList {
         fill_up();
         rows.resize(end);
       }
+      keep(rows, rows_[block]);
     });
   }
 
@@ -137,7 +137,16 @@ class PairList {
   struct alignas(64) FoundOfThread {  // no two threads share a cache line
     Found found;
     std::vector<std::uint32_t> beyond;
+    AlignedVector<std::uint32_t> listed;  // of a block
   };
+  /// Copies with a margin of 1/32 for the next lists, where a vector that grows would take twice what is needed.
+  static void keep(const AlignedVector<std::uint32_t>& rows, AlignedVector<std::uint32_t>& kept) {
+    if (kept.capacity() < rows.size()) {
+      kept = {};
+      kept.reserve(rows.size() + rows.size() / 32);
+    }
+    kept.assign(rows.begin(), rows.end());
+  }
 
   /// Packs that hold some entries of one particle.
   [[nodiscard]] std::uint16_t packs(std::size_t entries) const {
@@ -161,13 +170,6 @@ class PairList {
       for (std::size_t k = 0; k < size; ++k)
         if (excluded.holds(i, sources.original(rows[k]))) fraction[k] = never;
     std::fill(fraction + size, fraction + size + Lanes::width, never);
-  }
-
-  /// Memory for the rest of a block, by the look of the particles `done` of `all`; without it vectors would take twice what they need.
-  static void make_room(AlignedVector<std::uint32_t>& rows, std::size_t done, std::size_t all) {
-    if (done == 0) return;
-    const double expected = static_cast<double>(rows.size()) * static_cast<double>(all) / static_cast<double>(done);
-    if (static_cast<double>(rows.capacity()) < 1.01 * expected) rows.reserve(static_cast<std::size_t>(1.03 * expected) + 1024);
   }
 
   std::size_t pack_ = 1;
