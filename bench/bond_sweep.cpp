@@ -77,12 +77,16 @@ void bond_sweep_composed(benchmark::State& state) {
     const auto react = [sums = l.sums.data()](std::size_t at, Lanes factor, const Row& vector) __attribute__((always_inline)) {
       Row::load(sums + at).plus(factor, vector).store(sums + at);
     };
-    for (std::size_t i = 0; i < l.positions.size(); ++i) {
-      const sweep::BondRecords records{l.records.data() + i * stride, l.records.data()};
-      react(i * stride, 1.0, sweep::sum_bonds<3, false, true>(records, l.list.of(i), {}, react, law));
-      View<3, Lanes, Fields<field::Force>> none;
-      sweep::set_zero(none);
-      l.force[i] = to_vector<3>(l.sums.take(i, none).force);
+    for (std::size_t block = 0; block < l.blocks.size(); ++block) {
+      for (std::size_t i = l.blocks.begin(block); i < l.blocks.end(block); ++i) {
+        const sweep::BondRecords records{l.records.data() + i * stride, l.records.data()};
+        react(i * stride, 1.0, sweep::sum_bonds<3, false, true>(records, l.list.of(i), {}, react, law));
+      }
+      for (std::size_t i = l.blocks.begin(block); i < l.blocks.end(block); ++i) {  // a bond may be listed at either end
+        View<3, Lanes, Fields<field::Force>> none;
+        sweep::set_zero(none);
+        l.force[i] = to_vector<3>(l.sums.take(i, none).force);
+      }
     }
   }
   report(state);

@@ -113,6 +113,8 @@ test::Cloud<Dim> in_packs(const Group<Dim>& own, const Group<Dim>& others, bool 
   for (std::size_t i = 0; i < own.positions.size(); ++i) {
     const sweep::BondRecords records{own_records.data() + i * Own::stride, other_records.data()};
     plus(i * Sums::stride, 1.0, sweep::sum_bonds<Dim, Periodic, Own::numbers == Dim && Others::numbers == Dim>(records, list.of(i), periods, react, law));
+  }
+  for (std::size_t i = 0; i < own.positions.size(); ++i) {
     View<Dim, Lanes, Fields<field::Force, field::DensityRate>> nothing;
     sweep::set_zero(nothing);
     const auto total = sums.take(i, nothing);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -37,9 +38,9 @@ template <int Dim>
   return a_minus_b;
 }
 
-/// The bonds of each particle of one group. As in PairList, a bond in the same block of the same group is listed once, at the particle
-/// further up; all others at each end that lies in this group. The bonds of a particle fill whole packs; what fills up has a negative rest
-/// length and names the particle itself, or repeats the last partner if that is of another group.
+/// The bonds of each particle of one group. A bond in the same block of the same group is listed once, at that end where fewer entries are
+/// needed to fill packs; all others at each end that lies in this group. The bonds of a particle fill whole packs; what fills up has a
+/// negative rest length and names the particle itself, or repeats the last partner if that is of another group.
 class BondList {
  public:
   static constexpr double filler = -1.0;  ///< rest length of an entry that is no bond
@@ -66,16 +67,14 @@ class BondList {
     std::vector<std::uint32_t> block_of(particles);
     for (std::size_t b = 0; b < blocks.size(); ++b)
       for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) block_of[i] = static_cast<std::uint32_t>(b);
+    const std::vector<bool> at_j = same_group ? fill_packs(block_of, bonds, pack) : std::vector<bool>(bonds.size(), own_is_j);
     const auto each = [&](auto&& put) {  // put(own row, partner, listed once, bond)
-      for (const Bond& bond : bonds) {
-        if (!same_group) {
-          put(own_is_j ? bond.j : bond.i, own_is_j ? bond.i : bond.j, false, bond);
-          continue;
-        }
-        const std::uint32_t first = std::min(bond.i, bond.j), second = std::max(bond.i, bond.j);
-        const bool once = block_of[first] == block_of[second];
-        put(first, second, once, bond);
-        if (!once) put(second, first, false, bond);
+      for (std::size_t b = 0; b < bonds.size(); ++b) {
+        const Bond& bond = bonds[b];
+        const bool once = same_group && block_of[bond.i] == block_of[bond.j];
+        const std::uint32_t own = at_j[b] ? bond.j : bond.i, other = at_j[b] ? bond.i : bond.j;
+        put(own, other, once, bond);
+        if (same_group && !once) put(other, own, false, bond);
       }
     };
     std::vector<std::uint32_t> count(particles, 0);
@@ -144,7 +143,8 @@ class BondList {
   [[nodiscard]] std::size_t whole() const noexcept {
     return static_cast<std::size_t>(std::count_if(rest_length_.begin(), rest_length_.end(), [](double length) { return length >= 0.0; }));
   }
-  /// Where `of(i)` has the bond of particle i of this group and `partner`; what fills up comes after the bonds.
+  /// Where `of(i)` has the bond of particle i of this group and `partner`; its size if the bond is not listed there. What fills up comes
+  /// after the bonds.
   [[nodiscard]] std::size_t find(std::size_t i, std::uint32_t partner) const noexcept {
     const auto first = partner_.begin() + offset_[i], last = partner_.begin() + offset_[i + 1];
     return static_cast<std::size_t>(std::find(first, last, strides_.records * partner) - first);
@@ -184,6 +184,37 @@ class BondList {
   }
 
  private:
+  /// Of each bond, whether it is listed at its end j rather than i. Particles take as many of their bonds within the block as fill whole
+  /// packs, one after the other, and leave the rest to partners who have others too.
+  [[nodiscard]] static std::vector<bool> fill_packs(std::span<const std::uint32_t> block_of, std::span<const Bond> bonds, std::size_t pack) {
+    std::vector<std::uint32_t> listed(block_of.size(), 0), first(block_of.size() + 1, 0), order(bonds.size());
+    const auto lower = [&bonds](std::size_t b) { return std::min(bonds[b].i, bonds[b].j); };
+    const auto within = [&](std::size_t b) { return block_of[bonds[b].i] == block_of[bonds[b].j]; };
+    for (std::size_t b = 0; b < bonds.size(); ++b) {
+      if (within(b)) ++first[lower(b) + 1];
+      else ++listed[bonds[b].i], ++listed[bonds[b].j];
+    }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for (std::size_t b = 0; b < bonds.size(); ++b)
+      if (within(b)) order[next[lower(b)]++] = static_cast<std::uint32_t>(b);
+    std::vector<bool> at_j(bonds.size(), false);
+    for (std::uint32_t i = 0; i < block_of.size(); ++i) {
+      const std::span<const std::uint32_t> open(order.data() + first[i], first[i + 1] - first[i]);  // to partners, who come later
+      const auto partner = [&](std::uint32_t b) { return bonds[b].i + bonds[b].j - i; };
+      const auto has_others = [&](std::uint32_t b) { return listed[partner(b)] > 0 || first[partner(b) + 1] > first[partner(b)]; };
+      std::size_t left = (listed[i] + open.size()) % pack;
+      if (static_cast<std::size_t>(std::count_if(open.begin(), open.end(), has_others)) < left) left = 0;  // a pack is needed anyway
+      for (const std::uint32_t b : open) {
+        const bool here = left == 0 || !has_others(b);
+        if (!here) --left;
+        at_j[b] = (bonds[b].i == i) != here;
+        ++listed[here ? i : partner(b)];
+      }
+    }
+    return at_j;
+  }
+
   std::vector<std::uint32_t> offset_{0}, partner_, reaction_;
   std::vector<double> rest_length_, weight_, memory_, length_;
   std::size_t weight_step_ = 0;

@@ -160,18 +160,20 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
     for_each_solved([&](auto& g, Work& work) {
       using G = std::remove_cvref_t<decltype(g)>;
       for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-        for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
-          const auto add = g.sums.adder();
-          for_each_item([&](auto& active) {
-            using I = std::remove_cvref_t<decltype(active.item)>;
-            if constexpr (detail::has_implicit_dashpots<I>) {
-              const auto& law = active.item.law.dashpot;
+        const auto add = g.sums.adder();
+        for_each_item([&](auto& active) {
+          using I = std::remove_cvref_t<decltype(active.item)>;
+          if constexpr (detail::has_implicit_dashpots<I>) {
+            const auto& law = active.item.law.dashpot;
+            for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
               if constexpr (std::is_same_v<typename G::Tag, typename I::A>)
                 this->template bonds<typename I::B>(g, i, active.of_a, add, law, sweep::NoMemory{});
               else if constexpr (std::is_same_v<typename G::Tag, typename I::B>)
                 this->template bonds<typename I::A>(g, i, active.of_b, add, law, sweep::NoMemory{});
             }
-          });
+          }
+        });
+        for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
           View<Dim, typename Base::Lanes, typename G::Layout::writes> nothing;
           sweep::set_zero(nothing);
           work.drag[i] = -to_vector<Dim>(g.sums.take(i, nothing).force);

@@ -147,14 +147,14 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
     if constexpr (LayoutOf<G>::has_pairs) return g.level[block];
     else return 0;
   }
-  /// What the items say of particle i, which lies in `block`: pairs and bonds of one phase.
-  template <bool Fast, class G, class Sums, class Add>
-  [[gnu::always_inline]] void sum_items(const G& g, std::size_t block, std::size_t i, Sums& sums, const Add& add) noexcept {
+  /// What the pairs of particle i say, which lies in `block`.
+  template <class G, class Sums, class Add>
+  [[gnu::always_inline]] void sum_all_pairs(const G& g, std::size_t block, std::size_t i, Sums& sums, const Add& add) const noexcept {
     using Tag = typename G::Tag;
     [[maybe_unused]] const auto self = g.template spread<Lanes>(i);
-    for_each_item([&](auto& active) __attribute__((always_inline)) {
+    for_each_item([&](const auto& active) __attribute__((always_inline)) {
       using I = std::remove_cvref_t<decltype(active.item)>;
-      if constexpr (is_interaction<I> && !Fast)
+      if constexpr (is_interaction<I>)
         std::apply(
             [&](const auto&... law) __attribute__((always_inline)) {
               if constexpr (std::is_same_v<Tag, typename I::A>)
@@ -164,12 +164,23 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
                 pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
             },
             active.item.laws);
+    });
+  }
+  /// Forces of the bonds of one phase on the particles of a block, in their rows of sums: of all before one is taken, since a bond within
+  /// the block may be listed at either end.
+  template <bool Fast, class G, class Add>
+  void sum_all_bonds(const G& g, std::size_t block, const Add& add) noexcept {
+    using Tag = typename G::Tag;
+    for_each_item([&](auto& active) {
+      using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>)
-        if constexpr (mobile<G> && I::substepped == Fast) {
-          if constexpr (std::is_same_v<Tag, typename I::A>)
-            bonds<typename I::B>(g, i, active.of_a, add, active.item.law, active.recall.of(active.of_a, i));
-          else if constexpr (std::is_same_v<Tag, typename I::B>)
-            bonds<typename I::A>(g, i, active.of_b, add, active.item.law, active.recall.of(active.of_b, i));
+        if constexpr (mobile<G> && I::substepped == Fast && (std::is_same_v<Tag, typename I::A> || std::is_same_v<Tag, typename I::B>)) {
+          const std::size_t end = g.blocks.end(block);
+          for (std::size_t i = g.blocks.begin(block); i < end; ++i) {
+            if constexpr (std::is_same_v<Tag, typename I::A>)
+              bonds<typename I::B>(g, i, active.of_a, add, active.item.law, active.recall.of(active.of_a, i));
+            else bonds<typename I::A>(g, i, active.of_b, add, active.item.law, active.recall.of(active.of_b, i));
+          }
         }
     });
   }
@@ -234,13 +245,14 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
       for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
         const std::size_t end = g.blocks.end(block);
         [[maybe_unused]] const double inverse_mass = 1.0 / g.mass;
+        [[maybe_unused]] const auto add = g.sums.adder();
+        if constexpr (C::has_records) sum_all_bonds<Fast>(g, block, add);
         for (std::size_t i = g.blocks.begin(block); i < end; ++i) {
-          const auto add = g.sums.adder();
           View<Dim, double, typename C::writes> total;
           if constexpr (C::has_records) {
             View<Dim, Lanes, typename C::writes> sums;
             sweep::set_zero(sums);
-            sum_items<Fast>(g, block, i, sums, add);
+            if constexpr (!Fast) sum_all_pairs(g, block, i, sums, add);
             if constexpr (adds_up_in_memory) total = g.sums.take(i, sums);
             else total = G::Sums::totals(sums);
           }

@@ -144,9 +144,11 @@ class Model {
     using I = std::remove_cvref_t<decltype(active.item)>;
     constexpr bool same = std::is_same_v<typename I::A, typename I::B>;
     const bool at_b = !same && active.of_a.empty();
-    const std::uint32_t own = same ? std::min(bond.i, bond.j) : at_b ? bond.j : bond.i, other = bond.i + bond.j - own;
     auto& list = at_b ? active.of_b : active.of_a;
-    return function(list, own, list.find(own, other));
+    const auto at = [&](std::uint32_t own, std::uint32_t other) { return std::pair(own, list.find(own, other)); };
+    auto [own, entry] = at_b ? at(bond.j, bond.i) : at(bond.i, bond.j);
+    if (same && entry == list.of(own).size) std::tie(own, entry) = at(bond.j, bond.i);
+    return function(list, own, entry);
   }
   /// Whether a bond of an item has broken.
   template <class Active>
