@@ -7,6 +7,7 @@ using namespace dmp::simulation;
 struct Bead {};
 
 [[maybe_unused]] auto compose() {
-  return bonds<Bead, Bead>(bond::Breaking{bond::Dispersive{.stiffness = 1.0, .dispersive_share = 0.5}, bond::LargestEnergy{.energy = 0.1}}, {{0, 1}});
+  return bonds<Bead, Bead>(bond::Breaking{bond::Dispersive{.stiffness = 1.0, .dispersive_share = 0.5}, bond::LargestEnergy{.energy = 0.1}},
+                           {{0, 1}});
 }
 }  // namespace

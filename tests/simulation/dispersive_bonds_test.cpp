@@ -133,13 +133,15 @@ void check_forces(bool periodic, double least_distance) {
     }
     CHECK(sum.norm() <= 1e-15 * scale);
     if (!periodic) CHECK(std::fabs(torque) <= 1e-15 * scale);
-    const auto tensions = lattice_spring::tensions<Dim>(Dispersive{.stiffness = k, .dispersive_share = share}, net.body.bonds, x, {}, net.box);
+    const auto tensions =
+        lattice_spring::tensions<Dim>(Dispersive{.stiffness = k, .dispersive_share = share}, net.body.bonds, x, {}, net.box);
     double energy = 0.0;  // that of bonds, asked of the law: half of tension times elongation
     for (std::size_t b = 0; b < tensions.size(); ++b) {
       const Bond& bond = net.body.bonds[b];
       energy += 0.5 * tensions[b] * (neighbours::minimum_image<Dim>(x[bond.i] - x[bond.j], net.box).norm() - bond.rest_length);
     }
-    CHECK(energy == doctest::Approx(static_cast<double>(test::dispersive_energy<Dim>(k, share, net.body.bonds, x, net.box))).epsilon(1e-12));
+    CHECK(energy ==
+          doctest::Approx(static_cast<double>(test::dispersive_energy<Dim>(k, share, net.body.bonds, x, net.box))).epsilon(1e-12));
   }
 }
 
@@ -169,7 +171,8 @@ namespace {
 
 /// A block of lattice large enough for four blocks of rows, stretched and disturbed, with some bonds listed from either end.
 Body<3> large_block() {
-  auto body = lattice_spring::lattice_block(lattice_spring::CubicLattice{.spacing = 1.0}, {25, 25, 25}, lattice_spring::SurfaceBonds::shared);
+  auto body =
+      lattice_spring::lattice_block(lattice_spring::CubicLattice{.spacing = 1.0}, {25, 25, 25}, lattice_spring::SurfaceBonds::shared);
   lattice_spring::measure_rest_lengths<3>(body.bonds, body.points.positions);
   test::RandomVectors random;
   for (auto& x : body.points.positions) x = 1.02 * x + random.vector(0.05);
@@ -210,11 +213,12 @@ TEST_CASE("dispersive bonds of a body in four groups, mobile, frozen and driven:
   for (const int count : {1, 3}) {
     const test::Threads threads(count);
     auto scene = simulation::scene<Leapfrog>(
-        Box<3>::unbounded(), group<Beads>("beads", Mobile{}, parts.points[0], mass), group<Others>("others", Mobile{}, parts.points[1], 2.0 * mass),
-        group<Held>("held", Frozen<3>{}, parts.points[2], mass), group<Moved>("moved", Driven{still}, parts.points[3], mass),
-        bonds<Beads, Beads>(law, list[0][0]), bonds<Beads, Others>(law, list[0][1]), bonds<Beads, Held>(law, list[0][2]),
-        bonds<Beads, Moved>(law, list[0][3]), bonds<Others, Others>(law, list[1][1]), bonds<Others, Held>(law, list[1][2]),
-        bonds<Others, Moved>(law, list[1][3]), bonds<Held, Held>(law, list[2][2]), bonds<Moved, Moved>(law, list[3][3]));
+        Box<3>::unbounded(), group<Beads>("beads", Mobile{}, parts.points[0], mass),
+        group<Others>("others", Mobile{}, parts.points[1], 2.0 * mass), group<Held>("held", Frozen<3>{}, parts.points[2], mass),
+        group<Moved>("moved", Driven{still}, parts.points[3], mass), bonds<Beads, Beads>(law, list[0][0]),
+        bonds<Beads, Others>(law, list[0][1]), bonds<Beads, Held>(law, list[0][2]), bonds<Beads, Moved>(law, list[0][3]),
+        bonds<Others, Others>(law, list[1][1]), bonds<Others, Held>(law, list[1][2]), bonds<Others, Moved>(law, list[1][3]),
+        bonds<Held, Held>(law, list[2][2]), bonds<Moved, Moved>(law, list[3][3]));
     const auto beads = forces_on<Beads>(scene), others = forces_on<Others>(scene);
     double worst = 0.0;
     Vector<3> load_of_held = Vector<3>::Zero(), load_of_moved = load_of_held;  // of all bonds that end there: those within cancel
@@ -289,9 +293,9 @@ TEST_CASE("dispersive bonds that break: from that evaluation on, strains and for
 
 TEST_CASE("dispersive bonds all of which break leave beads that fly on alone") {
   const Net<3> net(false, 0.16);
-  auto scene = simulation::scene<Leapfrog>(net.box, group<Beads>("beads", Mobile{}, net.body.points, mass),
-                                           bonds<Beads, Beads>(Breaking{Dispersive{.stiffness = k, .dispersive_share = 0.6}, LargestStrain{.strain = 0.0}},
-                                                               net.body.bonds));
+  auto scene = simulation::scene<Leapfrog>(
+      net.box, group<Beads>("beads", Mobile{}, net.body.points, mass),
+      bonds<Beads, Beads>(Breaking{Dispersive{.stiffness = k, .dispersive_share = 0.6}, LargestStrain{.strain = 0.0}}, net.body.bonds));
   for (auto& x : scene.group<Beads>().positions()) x *= 1.2;
   CHECK(largest<3>(forces_on<Beads>(scene)) == 0.0);
   for (const double strain : scene.group<Beads>().get<field::BondStrain>()) CHECK(strain == 0.0);
@@ -301,7 +305,8 @@ TEST_CASE("dispersive shares that differ at one group, or are none, are refused"
   const geometry::Points<3> points{.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
   const auto message = [&](double first, double second) -> std::string {
     try {
-      (void)scene<Leapfrog>(Box<3>::unbounded(), group<Beads>("beads", Mobile{}, points, mass), group<Others>("others", Mobile{}, points, mass),
+      (void)scene<Leapfrog>(Box<3>::unbounded(), group<Beads>("beads", Mobile{}, points, mass),
+                            group<Others>("others", Mobile{}, points, mass),
                             bonds<Beads, Beads>(Dispersive{.stiffness = k, .dispersive_share = first}, {{0, 1}}),
                             bonds<Beads, Beads>(Harmonic{.stiffness = k}, {{0, 2}}),
                             bonds<Beads, Others>(Dispersive{.stiffness = 2.0 * k, .dispersive_share = second}, {{1, 2}}));
@@ -311,6 +316,7 @@ TEST_CASE("dispersive shares that differ at one group, or are none, are refused"
     return "";
   };
   CHECK(message(0.2, 0.2) == "");
-  CHECK(message(0.2, 0.3).find("bonds of beads: dispersive_share must be the same of all bonds of a group that have one, 0.2, got 0.3") != std::string::npos);
+  CHECK(message(0.2, 0.3).find("bonds of beads: dispersive_share must be the same of all bonds of a group that have one, 0.2, got 0.3") !=
+        std::string::npos);
   CHECK(message(0.2, 1.0).find("bond::Dispersive: dispersive_share must be >= -0.5 and < 1, got 1") != std::string::npos);
 }

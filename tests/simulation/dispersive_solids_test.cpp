@@ -1,4 +1,5 @@
-// Springs with dispersion in scenes: E and nu, speeds of waves, energy over long runs, bounds of the step, and the pressed cube. Cases B3 and B10.
+// Springs with dispersion in scenes: E and nu, speeds of waves, energy over long runs, bounds of the step, and the pressed cube. Cases B3
+// and B10.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,7 +63,9 @@ Clamp<3> along_x(double speed) { return {.direction = {{1.0, 0.0, 0.0}}, .motion
 
 }  // namespace
 
-TEST_CASE("B3: a bar of lattice between rollers, stretched in a scene, has E and nu up to its strain, and the small-strain solution up to strain squared") {
+TEST_CASE(
+    "B3: a bar of lattice between rollers, stretched in a scene, has E and nu up to its strain, and the small-strain solution up to strain "
+    "squared") {
   constexpr int length = 10, width = 3;
   const auto body = block(length, width);
   const auto& x = body.points.positions;
@@ -75,8 +78,9 @@ TEST_CASE("B3: a bar of lattice between rollers, stretched in a scene, has E and
       unit[i][0] = x[i][0];
       if (x[i][0] < 0.5 || x[i][0] > length - 0.5) rollers.hold(i, 0);
     }
-    const auto linear = equilibrium<3>(SmallStrain<3>(body, {.stiffness = law.stiffness, .dispersive_share = law.dispersive_share}), rollers, unit,
-                                       {}, {.tolerance = 1e-12}).displacements;
+    const auto linear = equilibrium<3>(SmallStrain<3>(body, {.stiffness = law.stiffness, .dispersive_share = law.dispersive_share}),
+                                       rollers, unit, {}, {.tolerance = 1e-12})
+                            .displacements;
     std::array<double, 2> modulus{}, ratio{}, error{};
     for (const int half : {0, 1}) {
       const double strain = half == 0 ? 2e-3 : 1e-3;
@@ -98,7 +102,7 @@ TEST_CASE("B3: a bar of lattice between rollers, stretched in a scene, has E and
       modulus[n] = load / (width * width * strain);
       ratio[n] = -across / (count * width * strain);
     }
-    for (const std::size_t n : {0, 1}) {
+    for (std::size_t n = 0; n < 2; ++n) {
       const double strain = n == 0 ? 2e-3 : 1e-3;
       CHECK(std::fabs(modulus[n] - 1.0) < 4.0 * strain);
       CHECK(std::fabs(ratio[n] - nu) < 4.0 * strain);
@@ -117,15 +121,17 @@ Body<3> periodic_lattice(const std::array<int, 3>& cells) {
   Body<3> body;
   const auto row = [&](int i, int j, int m) {
     const auto wrap = [](int a, int n) { return static_cast<std::uint32_t>((a % n + n) % n); };
-    return wrap(i, cells[0]) + static_cast<std::uint32_t>(cells[0]) * (wrap(j, cells[1]) + static_cast<std::uint32_t>(cells[1]) * wrap(m, cells[2]));
+    return wrap(i, cells[0]) +
+           static_cast<std::uint32_t>(cells[0]) * (wrap(j, cells[1]) + static_cast<std::uint32_t>(cells[1]) * wrap(m, cells[2]));
   };
   for (int m = 0; m < cells[2]; ++m)
     for (int j = 0; j < cells[1]; ++j)
       for (int i = 0; i < cells[0]; ++i) {
         body.points.positions.emplace_back(i + 0.5, j + 0.5, m + 0.5);
         for (const auto& bond : CubicLattice::bonds())
-          body.bonds.push_back({row(i, j, m), row(i + bond.to[0], j + bond.to[1], m + bond.to[2]),
-                                std::sqrt(static_cast<double>(bond.to[0] * bond.to[0] + bond.to[1] * bond.to[1] + bond.to[2] * bond.to[2]))});
+          body.bonds.push_back(
+              {row(i, j, m), row(i + bond.to[0], j + bond.to[1], m + bond.to[2]),
+               std::sqrt(static_cast<double>(bond.to[0] * bond.to[0] + bond.to[1] * bond.to[1] + bond.to[2] * bond.to[2]))});
       }
   return body;
 }
@@ -135,11 +141,13 @@ double error_of_speed(int n, double nu, bool oblique, const Vector<3>& polarisat
   const auto constants = ElasticConstants<3>::from_young(1.0, nu);
   const std::array<int, 3> cells{n, oblique ? n : 4, 4};
   const auto body = periodic_lattice(cells);
-  const Dispersive law{.stiffness = constants.spring_modulus, .dispersive_share = constants.dispersive_share};  // lambda = mu = k/l if D = 0
+  const Dispersive law{.stiffness = constants.spring_modulus,
+                       .dispersive_share = constants.dispersive_share};  // lambda = mu = k/l if D = 0
   const Vector<3> wave = 2.0 * std::numbers::pi / n * Vector<3>(1.0, oblique ? 1.0 : 0.0, 0.0);
   const Vector<3> direction = polarisation.normalized();
   const bool longitudinal = std::fabs(direction.dot(wave)) > 1e-9;
-  const double speed = std::sqrt(longitudinal ? constants.first_lame_parameter + 2.0 * constants.shear_modulus : constants.shear_modulus);  // density 1
+  const double speed =
+      std::sqrt(longitudinal ? constants.first_lame_parameter + 2.0 * constants.shear_modulus : constants.shear_modulus);  // density 1
   const double frequency = speed * wave.norm(), period = 2.0 * std::numbers::pi / frequency;
   auto scene = simulation::scene<Leapfrog>(
       Box<3>{.lower = Vector<3>::Zero(), .upper = Vector<3>(cells[0], cells[1], cells[2]), .periodic = {true, true, true}},
@@ -161,20 +169,25 @@ double error_of_speed(int n, double nu, bool oblique, const Vector<3>& polarisat
 
 }  // namespace
 
-TEST_CASE("waves in a periodic lattice travel at sqrt((lambda + 2 mu)/rho) and sqrt(mu/rho), in any direction, to second order in the wave number") {
+TEST_CASE(
+    "waves in a periodic lattice travel at sqrt((lambda + 2 mu)/rho) and sqrt(mu/rho), in any direction, to second order in the wave "
+    "number") {
   const Vector<3> x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0), xy(1.0, 1.0, 0.0), yx(1.0, -1.0, 0.0);
   for (const double nu : {-0.5, 0.0, 0.25, 0.4, 0.49}) {
     CAPTURE(nu);
-    for (const auto& [oblique, polarisation] : {std::pair{false, x}, {false, y}, {true, xy}, {true, yx}, {true, z}}) {
+    for (const auto& [is_oblique, direction] : {std::pair{false, x}, {false, y}, {true, xy}, {true, yx}, {true, z}}) {
+      const bool oblique = is_oblique;
+      const Vector<3> polarisation = direction;  // a structured binding must not be captured
       CAPTURE(oblique);
       CAPTURE(polarisation.transpose());
       const double coarse = error_of_speed(12, nu, oblique, polarisation), fine = error_of_speed(24, nu, oblique, polarisation);
-      const double angle = 2.0 * std::numbers::pi / 12, squared = square(angle) * (oblique ? 2.0 : 1.0);  // wave number times spacing, and square
+      const double angle = 2.0 * std::numbers::pi / 12,
+                   squared = square(angle) * (oblique ? 2.0 : 1.0);  // wave number times spacing, and square
       CHECK(std::fabs(coarse) < 0.25 * squared);
       CHECK(std::fabs(4.0 * fine - coarse) / 3.0 < 0.02 * square(squared));  // without what is of second order
       if (oblique || polarisation[0] == 0.0) continue;
-      // Along x the lattice has rho omega^2 l^2 = 3 mu 2 (1 - cos q) + (lambda - mu) sin^2 q, q = wave number times l: the strains of its beads
-      // are central differences.
+      // Along x the lattice has rho omega^2 l^2 = 3 mu 2 (1 - cos q) + (lambda - mu) sin^2 q, q = wave number times l: the strains of its
+      // beads are central differences.
       const auto constants = ElasticConstants<3>::from_young(1.0, nu);
       const double mu = constants.shear_modulus, lambda = constants.first_lame_parameter;
       const double exact = 6.0 * mu * (1.0 - std::cos(angle)) + (lambda - mu) * square(std::sin(angle));
@@ -188,7 +201,8 @@ namespace {
 double energy_error(double nu, double share_of_bound, double until, double& first, double& last) {
   const auto body = block(5, 5);
   const auto law = law_for(body, nu);
-  auto scene = simulation::scene<Leapfrog>(Box<3>::unbounded(), group<Beads>("beads", Mobile{}, body.points, 1.0), bonds<Beads, Beads>(law, body.bonds));
+  auto scene = simulation::scene<Leapfrog>(Box<3>::unbounded(), group<Beads>("beads", Mobile{}, body.points, 1.0),
+                                           bonds<Beads, Beads>(law, body.bonds));
   test::RandomVectors random;
   Vector<3> mean = Vector<3>::Zero();
   auto& velocity = scene.group<Beads>().get<field::Velocity>();
@@ -218,7 +232,9 @@ double energy_error(double nu, double share_of_bound, double until, double& firs
 
 }  // namespace
 
-TEST_CASE("energy of a block with dispersion over thousands of periods of its fastest motion: bounded, without drift, of second order in the step") {
+TEST_CASE(
+    "energy of a block with dispersion over thousands of periods of its fastest motion: bounded, without drift, of second order in the "
+    "step") {
   for (const double nu : {0.49, 0.45, -0.5}) {
     CAPTURE(nu);
     double first, last;
@@ -267,10 +283,13 @@ double exact_bound(const Scene& scene, const Dispersive& law, const std::vector<
 
 }  // namespace
 
-TEST_CASE("the bound of the step of dispersive bonds is below the exact one, at rest and strained by 10 %, and no shorter than that of full springs") {
+TEST_CASE(
+    "the bound of the step of dispersive bonds is below the exact one, at rest and strained by 10 %, and no shorter than that of full "
+    "springs") {
   const auto cubic = block(3, 3);
   auto random_net = network(random_points<3>({.least_distance = 0.9, .most_failures = 2000},
-                                             geometry::Cuboid<3>{.lower = {0.0, 0.0, 0.0}, .upper = {4.0, 4.0, 4.0}}), 1.73);
+                                             geometry::Cuboid<3>{.lower = {0.0, 0.0, 0.0}, .upper = {4.0, 4.0, 4.0}}),
+                            1.73);
   measure_rest_lengths<3>(random_net.bonds, random_net.points.positions);
   test::RandomVectors random;
   for (auto& bond : random_net.bonds) bond.weight = 0.6 + random.vector(0.5)[0];
@@ -281,7 +300,8 @@ TEST_CASE("the bound of the step of dispersive bonds is below the exact one, at 
         CAPTURE(stretch);
         const Dispersive law{.stiffness = 2.0, .dispersive_share = share};
         const auto make = [&](const auto& of_bonds) {
-          auto scene = simulation::scene<Leapfrog>(Box<3>::unbounded(), group<Beads>("beads", Mobile{}, body.points, 0.5), bonds<Beads, Beads>(of_bonds, body.bonds));
+          auto scene = simulation::scene<Leapfrog>(Box<3>::unbounded(), group<Beads>("beads", Mobile{}, body.points, 0.5),
+                                                   bonds<Beads, Beads>(of_bonds, body.bonds));
           test::RandomVectors disorder;
           for (auto& x : scene.template group<Beads>().positions()) x = stretch * x + disorder.vector(0.05);
           return scene;
@@ -313,7 +333,9 @@ TEST_CASE("dispersive bonds near the limits of the Poisson ratio are stable at 0
   }
 }
 
-TEST_CASE("B10: a cube between plates that stick to it, pressed by 10 %: it bulges at nu = 0.49 and narrows at -0.99, where the parts of the force cancel") {
+TEST_CASE(
+    "B10: a cube between plates that stick to it, pressed by 10 %: it bulges at nu = 0.49 and narrows at -0.99, where the parts of the "
+    "force cancel") {
   constexpr int cells = 8;
   const auto body = block(cells, cells);
   const auto& x = body.points.positions;
@@ -325,7 +347,8 @@ TEST_CASE("B10: a cube between plates that stick to it, pressed by 10 %: it bulg
     double load = 0.0;
     stretched(body, law, Driven{along_x(0.0)}, Driven{along_x(-0.1 * cells)}, 1.0, 1e-7, positions, load);
     const auto together = tensions<3>(law, body.bonds, positions);
-    const auto direct = tensions<3>(bond::Harmonic{.stiffness = law.stiffness * (1.0 - std::fabs(law.dispersive_share))}, body.bonds, positions);
+    const auto direct =
+        tensions<3>(bond::Harmonic{.stiffness = law.stiffness * (1.0 - std::fabs(law.dispersive_share))}, body.bonds, positions);
     double direct_squared = 0.0, dispersive_squared = 0.0, together_squared = 0.0, widening = 0.0, count = 0.0;
     for (std::size_t b = 0; b < direct.size(); ++b) {
       CHECK(std::isfinite(together[b]));

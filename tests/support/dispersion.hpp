@@ -9,8 +9,8 @@
 /// Springs with dispersion, summed one by one.
 namespace test {
 
-/// U = sum over bonds of (1/2)(1 - |D|) k (L - L0)^2 + sum over beads of (D/4) theta^2/S [J], k with the weight of the bond. In long double, for
-/// differences of it.
+/// U = sum over bonds of (1/2)(1 - |D|) k (L - L0)^2 + sum over beads of (D/4) theta^2/S [J], k with the weight of the bond. In long
+/// double, for differences of it.
 template <int Dim>
 [[nodiscard]] long double dispersive_energy(double stiffness, double share, std::span<const dmp::neighbours::Bond> bonds,
                                             std::span<const dmp::Vector<Dim>> positions,
@@ -38,8 +38,8 @@ template <int Dim, std::size_t Parts>
 struct Divided {
   std::array<dmp::geometry::Points<Dim>, Parts> points;
   std::array<std::array<std::vector<dmp::neighbours::Bond>, Parts>, Parts> bonds;
-  std::vector<std::size_t> part;       ///< of each bead
-  std::vector<std::uint32_t> row;      ///< of each bead in its part
+  std::vector<std::size_t> part;   ///< of each bead
+  std::vector<std::uint32_t> row;  ///< of each bead in its part
 
   template <class PartOf>
   Divided(const dmp::lattice_spring::Body<Dim>& body, const PartOf& part_of) {

@@ -72,8 +72,8 @@ using State = std::conditional_t<HasMemory<B>, Remembering<Seen<B>, double>,
 ///                        before the tension, which sees the new memory; what depends on dt alone is computed outside of it, once.
 ///                        dt = 0 is a sudden change of length, and if there is none the memory stays as it is.
 ///   dispersive_share, stiffness  members, only of a law whose tension depends on how all bonds of its two ends are strained: it sees
-///                        `strain_of_ends` = theta/S of one end plus that of the other, theta = sum of k r0 (r - r0), S = sum of k r0^2 over
-///                        the bonds of a particle by laws with a dispersive share D, k = `stiffness` times the weight of the bond
+///                        `strain_of_ends` = theta/S of one end plus that of the other, theta = sum of k r0 (r - r0), S = sum of k r0^2
+///                        over the bonds of a particle by laws with a dispersive share D, k = `stiffness` times the weight of the bond
 ///   breaks(bond)         only of a law whose bonds break: whether this one does, now and for good. Asked once per evaluation of the force;
 ///                        the answer must depend on the length and memory alone, so that both ends give the same.
 template <class B>

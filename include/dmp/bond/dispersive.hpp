@@ -7,7 +7,8 @@
 namespace dmp::bond {
 
 /// Spring of a solid whose Poisson ratio is not that of central springs, 1/(N + 1). A part of its stiffness acts along the bond, the rest
-/// through the mean strain e = theta/S of all bonds at its ends, theta = sum of k r0 (r - r0), S = sum of k r0^2 over the bonds of a particle:
+/// through the mean strain e = theta/S of all bonds at its ends, theta = sum of k r0 (r - r0), S = sum of k r0^2 over the bonds of a
+/// particle:
 ///   U = sum over bonds of (1/2)(1 - |D|) k (r - r0)^2 + sum over particles of (D/4) theta^2/S [J]
 ///   tension = (1 - |D|) k (r - r0) + (D/2) k r0 (e_i + e_j) [N],  energy = (1/2) tension (r - r0): these of all bonds sum to U
 /// D > 0 resists changes of volume more, D < 0 less; shear feels k (1 - |D|). D = 0 is Harmonic. From Young's modulus and Poisson ratio:
@@ -31,9 +32,7 @@ struct Dispersive {
                   "bonds are asked whether they break; take bond::LargestStrain");
     return 0.5 * (tension(bond) * (bond.length - bond.rest_length));
   }
-  [[nodiscard]] double largest_stiffness() const noexcept {
-    return (dispersive_share < 0.0 ? 1.0 + dispersive_share : 1.0) * stiffness;
-  }
+  [[nodiscard]] double largest_stiffness() const noexcept { return (dispersive_share < 0.0 ? 1.0 + dispersive_share : 1.0) * stiffness; }
 };
 
 inline void validate(const Dispersive& law) {

@@ -23,8 +23,8 @@ void measure_rest_lengths(std::vector<neighbours::Bond>& bonds, std::span<const 
     if (bond.rest_length < 0.0) bond.rest_length = neighbours::minimum_image<Dim>(positions[bond.j] - positions[bond.i], box).norm();
 }
 
-/// Tension of each bond [N], weight included, > 0 pulls its ends together. A law with dashpots needs the velocities, any other does not. Of a
-/// law with a dispersive share, `bonds` are all that the beads have of such laws.
+/// Tension of each bond [N], weight included, > 0 pulls its ends together. A law with dashpots needs the velocities, any other does not. Of
+/// a law with a dispersive share, `bonds` are all that the beads have of such laws.
 template <int Dim, class Law>
   requires(bond::BondPotential<Law> && !bond::HasMemory<Law>)
 [[nodiscard]] std::vector<double> tensions(const Law& law, std::span<const neighbours::Bond> bonds, std::span<const Vector<Dim>> positions,

@@ -140,14 +140,16 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
     return {g.records.data() + i * G::Records::stride, source.records.data(), G::Records::template first_of<field::BondStrain>,
             Source::Records::template first_of<field::BondStrain>};
   }
+  /// Groups in which bonds with a dispersive share end.
+  template <class Function>
+  void for_each_strained(const Function& function) {
+    for_each_group([&](auto& g) {
+      if constexpr (contains<field::BondStrain, typename LayoutOf<decltype(g)>::record>) function(g);
+    });
+  }
   /// The mean strain of the bonds of each particle, where bonds have a dispersive share: columns, and records that know of them.
   void gather_strains() {
-    const auto for_each_strained = [this](const auto& function) {
-      for_each_group([&function](auto& g) {
-        if constexpr (contains<field::BondStrain, typename LayoutOf<decltype(g)>::record>) function(g);
-      });
-    };
-    for_each_strained([this](auto& g) {
+    for_each_strained([&](auto& g) {
       using G = std::remove_cvref_t<decltype(g)>;
       static_assert(G::Sums::stride >= 2);
       for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
@@ -160,8 +162,10 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
                 const auto add = [&]<class Source>(std::type_identity<Source>, neighbours::BondList& list) {
                   const auto records = records_for(g, i, this->template group<Source>());
                   const auto memory = active.recall.of(list, i);
-                  if (list.crosses(i)) sweep::sum_strains<Dim, true>(records, list.of(i), bond_periods_, g.sums.data(), own, active.item.law, memory);
-                  else sweep::sum_strains<Dim, false>(records, list.of(i), bond_periods_, g.sums.data(), own, active.item.law, memory);
+                  double* const sums = g.sums.data();
+                  const auto& law = active.item.law;
+                  if (list.crosses(i)) sweep::sum_strains<Dim, true>(records, list.of(i), bond_periods_, sums, own, law, memory);
+                  else sweep::sum_strains<Dim, false>(records, list.of(i), bond_periods_, sums, own, law, memory);
                 };
                 if constexpr (std::is_same_v<typename G::Tag, typename I::A>) add(std::type_identity<typename I::B>{}, active.of_a);
                 else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) add(std::type_identity<typename I::A>{}, active.of_b);

@@ -112,8 +112,8 @@ template <class A, class B, class Law>
 [[nodiscard]] auto substepped_bonds(const Law& law, std::vector<neighbours::Bond> list, int substeps = 0) {
   static_assert(bond::explain_bond_potential<Law>());
   static_assert(!bond::IsDispersive<Law>,
-                "dmp: substepped_bonds: bonds with a dispersive share need the strains of all bonds of their ends anew in each sub-step, which "
-                "is not done; make them bonds<...>");
+                "dmp: substepped_bonds: bonds with a dispersive share need the strains of all bonds of their ends anew in each sub-step, "
+                "which is not done; make them bonds<...>");
   check_parameters(law);
   require(substeps >= 0, "substepped_bonds: substeps must be >= 0 (0: as many as stability asks for)", substeps);
   return Bonds<A, B, Law, true>{law, std::move(list), substeps};

@@ -270,7 +270,7 @@ class Model {
 
   /// Bonds that share the strain of a particle must share it alike: else there is no energy.
   void check_dispersion() const {
-    for_each_group([this](const auto& g) {
+    for_each_group([&](const auto& g) {
       double share = std::numeric_limits<double>::quiet_NaN();
       for_each_item([&](const auto& active) {
         using I = std::remove_cvref_t<decltype(active.item)>;
