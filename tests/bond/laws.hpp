@@ -14,6 +14,8 @@ namespace test {
 template <class B, class T>
 [[nodiscard]] auto stretch_of(const T& length, const T& rest_length, [[maybe_unused]] const T& length_rate) {
   if constexpr (dmp::bond::UsesVelocity<B>) return dmp::bond::MovingStretch<T>{{length, rest_length}, length_rate};
+  else if constexpr (dmp::bond::IsDispersive<B>)  // a bond alone
+    return dmp::bond::Dispersing<dmp::bond::Stretch<T>, T>{{length, rest_length}, 2.0 * (length - rest_length) / rest_length};
   else return dmp::bond::Stretch<T>{length, rest_length};
 }
 

@@ -205,6 +205,16 @@ struct ShearRate {
   };
   static constexpr auto& of(auto& slots) { return slots.shear_rate; }
 };
+/// Mean strain of the bonds of a particle, weighted by k r0^2: what bonds with a dispersive share see of their ends.
+struct BondStrain {
+  static constexpr std::string_view name = "bond_strain", unit = "-";
+  static constexpr bool is_vector = false;
+  template <int Dim, class T>
+  struct Slot {
+    T bond_strain;
+  };
+  static constexpr auto& of(auto& slots) { return slots.bond_strain; }
+};
 
 }  // namespace field
 

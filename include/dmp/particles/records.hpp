@@ -11,17 +11,19 @@
 namespace dmp::particles {
 
 namespace detail {
+/// Numbers of a record before those of the field Wanted.
+template <class Wanted, int Dim, class... Field>
+inline constexpr int numbers_before = [] {
+  int count = 0;
+  bool found = false;
+  ((found = found || std::is_same_v<Wanted, Field>, count += found ? 0 : numbers_of<Field, Dim>), ...);
+  return count;
+}();
 /// Calls function(slot, number) for every number of the view, slots being compile-time numbers.
 template <int Dim, class T, class... Field, class Function>
 [[gnu::always_inline]] inline void for_each_number(View<Dim, T, Fields<Field...>>& view, Function function) noexcept {
-  constexpr auto numbers_before = []<class Wanted>(std::type_identity<Wanted>) consteval {
-    int count = 0;
-    bool found = false;
-    ((found = found || std::is_same_v<Wanted, Field>, count += found ? 0 : numbers_of<Field, Dim>), ...);
-    return count;
-  };
   const auto one = [&]<class F>(std::type_identity<F>) __attribute__((always_inline)) {
-    constexpr int first = numbers_before(std::type_identity<F>{});
+    constexpr int first = numbers_before<F, Dim, Field...>;
     auto& member = F::of(view);
     if constexpr (numbers_of<F, Dim> > 1 || F::is_vector)
       unrolled<numbers_of<F, Dim>>([&](auto d)
@@ -48,6 +50,9 @@ class Records<Dim, Fields<Field...>, Precision> {
   static constexpr int width = native_width<Real>;
   static constexpr int stride = (numbers + width - 1) / width * width;  ///< numbers from one record to the next
   using Lanes = Pack<Real, width>;
+  /// Where a field begins in a record.
+  template <class F>
+  static constexpr int first_of = detail::numbers_before<F, Dim, Field...>;
 
   [[nodiscard]] static constexpr std::size_t bytes_per_particle() noexcept { return stride * sizeof(Real); }
   void resize(std::size_t count) {

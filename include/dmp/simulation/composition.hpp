@@ -280,7 +280,7 @@ struct Compose {
                                     unite<Fields<field::Position>, only_if<uses_velocity, field::Velocity>, subtract<reads, constants>>,
                                     Fields<>>;
   using type = Layout<columns, state, rates, record, constants, derived, writes, has_pairs, has_bonds, has_substeps,
-                      Mobility::evolves && (has_bonds || (acts_within<Tag, Item> || ...))>;
+                      contains<field::BondStrain, reads> || (Mobility::evolves && (has_bonds || (acts_within<Tag, Item> || ...)))>;
 };
 
 }  // namespace detail

@@ -79,6 +79,7 @@ template <class Scene>
            << active.item.bonds.size() << " bonds" << (I::uses_velocity ? ", with velocities" : "")
            << (I::substepped ? ", sub-stepped" : "") << (bond::HasMemory<decltype(I::law)> ? ", with memory" : "")
            << (bond::CanBreak<decltype(I::law)> ? ", breaking" : "")
+           << (bond::IsDispersive<decltype(I::law)> ? ", dispersive: a sweep of its own for strains" : "")
            << (std::is_same_v<decltype(I::law), ImplicitKelvinVoigt> ? ", dashpots implicit" : "") << '\n';
       any = true;
     }

@@ -96,6 +96,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
   }
   /// Accelerations and rates from the records as they are.
   void gather_all(double time, double dt) {
+    gather_strains();
     begin_memories<false>(dt);
     for_each_group([&](auto& g) { gather<false>(g, time, dt); });
   }
@@ -117,7 +118,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
                                     const Memory& memory) const noexcept {
     const auto& source = this->template group<Source>();
     using Partners = typename std::remove_cvref_t<decltype(source)>::Records;
-    const sweep::BondRecords records{g.records.data() + i * G::Records::stride, source.records.data()};
+    const auto records = records_for(g, i, source);
     constexpr bool positions_alone = Partners::numbers == Dim && G::Records::numbers == Dim;
     const auto plus = [sums = add.data](std::size_t at, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
       sweep::Row<Dim>::load(sums + at).plus(factor, vector).store(sums + at);
@@ -133,6 +134,57 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
   }
 
  private:
+  /// Where the bonds of particle i find it and its partners.
+  template <class G, class Source>
+  [[nodiscard, gnu::always_inline]] static sweep::BondRecords records_for(const G& g, std::size_t i, const Source& source) noexcept {
+    return {g.records.data() + i * G::Records::stride, source.records.data(), G::Records::template first_of<field::BondStrain>,
+            Source::Records::template first_of<field::BondStrain>};
+  }
+  /// Groups in which bonds with a dispersive share end.
+  template <class Function>
+  void for_each_strained(const Function& function) {
+    for_each_group([&](auto& g) {
+      if constexpr (contains<field::BondStrain, typename LayoutOf<decltype(g)>::record>) function(g);
+    });
+  }
+  /// The mean strain of the bonds of each particle, where bonds have a dispersive share: columns, and records that know of them.
+  void gather_strains() {
+    for_each_strained([&](auto& g) {
+      using G = std::remove_cvref_t<decltype(g)>;
+      static_assert(G::Sums::stride >= 2);
+      for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
+        for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
+          const std::size_t own = i * static_cast<std::size_t>(G::Sums::stride);
+          for_each_item([&](auto& active) {
+            using I = std::remove_cvref_t<decltype(active.item)>;
+            if constexpr (is_bonds<I>)
+              if constexpr (bond::IsDispersive<decltype(I::law)>) {
+                const auto add = [&]<class Source>(std::type_identity<Source>, neighbours::BondList& list) {
+                  const auto records = records_for(g, i, this->template group<Source>());
+                  const auto memory = active.recall.of(list, i);
+                  double* const sums = g.sums.data();
+                  const auto& law = active.item.law;
+                  if (list.crosses(i)) sweep::sum_strains<Dim, true>(records, list.of(i), bond_periods_, sums, own, law, memory);
+                  else sweep::sum_strains<Dim, false>(records, list.of(i), bond_periods_, sums, own, law, memory);
+                };
+                if constexpr (std::is_same_v<typename G::Tag, typename I::A>) add(std::type_identity<typename I::B>{}, active.of_a);
+                else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) add(std::type_identity<typename I::A>{}, active.of_b);
+              }
+          });
+          double* const sums = g.sums.data() + own;  // theta and S, zero again for the forces
+          g.template get<field::BondStrain>()[i] = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+          sums[0] = sums[1] = 0.0;
+        }
+      });
+    });
+    for_each_strained([](auto& g) {  // when nobody looks into the records any more
+      using Records = typename std::remove_cvref_t<decltype(g)>::Records;
+      for_each_range(g.blocks.ranges(), [&g](std::size_t, std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+          g.records.data()[i * Records::stride + Records::template first_of<field::BondStrain>] = g.template get<field::BondStrain>()[i];
+      });
+    });
+  }
   /// The memories of bonds of one phase are about to be carried over a step of `dt`.
   template <bool Fast>
   void begin_memories(double dt) {

@@ -98,10 +98,16 @@ void add_holds(const Law& law, double per_mass, const neighbours::BondList& list
         apart[d] = Lanes::load(numbers_apart[d]);
         squared += apart[d] * apart[d];
       });
-      bond::Remembering<bond::MovingStretch<Lanes>, Lanes> seen{};
+      bond::FullState<Lanes> seen{};
       seen.length = sqrt(squared);
       seen.rest_length = Lanes::load(bonds.rest_length + k);
       if constexpr (bond::HasMemory<Law>) seen.memory = Lanes::load(list.memories_of(i) + k);
+      if constexpr (bond::IsDispersive<Law>) {
+        double strain[width];
+        for (std::size_t lane = 0; lane < width; ++lane)
+          strain[lane] = partners.template get<field::BondStrain>()[bonds.partner[k + lane] / Partners::Records::stride];
+        seen.strain_of_ends = g.template get<field::BondStrain>()[i] + Lanes::load(strain);
+      }
       const auto is_bond = seen.rest_length >= 0.0, has_length = squared > 0.0 && squared <= std::numeric_limits<double>::max();
       const Lanes weight = select(is_bond, Lanes::load(bonds.weight + k * bonds.weight_step), 0.0);
       const Lanes inverse = select(has_length, 1.0 / squared, 0.0), tension = law.tension(seen);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include <dmp/bond/concept.hpp>
@@ -89,7 +90,7 @@ template <class A_, class B_, class Law, bool Substepped>
 struct Bonds {
   using A = A_;
   using B = B_;
-  using reads = Fields<>;
+  using reads = std::conditional_t<bond::IsDispersive<Law>, Fields<field::BondStrain>, Fields<>>;
   using writes = Fields<field::Force>;
   static constexpr bool uses_velocity = bond::UsesVelocity<Law> || std::is_same_v<Law, ImplicitKelvinVoigt>;
   static constexpr bool substepped = Substepped;
@@ -110,6 +111,9 @@ template <class A, class B, class Law>
 template <class A, class B, class Law>
 [[nodiscard]] auto substepped_bonds(const Law& law, std::vector<neighbours::Bond> list, int substeps = 0) {
   static_assert(bond::explain_bond_potential<Law>());
+  static_assert(!bond::IsDispersive<Law>,
+                "dmp: substepped_bonds: bonds with a dispersive share need the strains of all bonds of their ends anew in each sub-step, "
+                "which is not done; make them bonds<...>");
   check_parameters(law);
   require(substeps >= 0, "substepped_bonds: substeps must be >= 0 (0: as many as stability asks for)", substeps);
   return Bonds<A, B, Law, true>{law, std::move(list), substeps};

@@ -82,7 +82,7 @@ template <class Tag, class Scene>
           const Vector<dim> apart = neighbours::minimum_image<dim>(a.positions()[one.i] - b.positions()[one.j], scene.engine().box());
           const double length = apart.norm();
           if (!(length > 0.0)) continue;
-          bond::Remembering<bond::MovingStretch<double>, double> seen{};
+          bond::FullState<double> seen{};
           seen.length = length;
           seen.rest_length = one.rest_length;
           seen.length_rate =
@@ -90,6 +90,8 @@ template <class Tag, class Scene>
           if constexpr (bond::HasMemory<decltype(I::law)>)
             seen.memory =
                 scene.engine().look_up(active, one, [](const auto& list, std::size_t i, std::size_t k) { return list.memories_of(i)[k]; });
+          if constexpr (bond::IsDispersive<decltype(I::law)>)
+            seen.strain_of_ends = a.template get<field::BondStrain>()[one.i] + b.template get<field::BondStrain>()[one.j];
           double tension = active.item.law.tension(seen);
           if constexpr (requires { active.item.law.dashpot; }) tension += active.item.law.dashpot.tension(seen);
           load += (std::is_same_v<typename I::A, Tag> ? -1.0 : 1.0) * one.weight * tension / length * apart;

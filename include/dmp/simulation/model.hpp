@@ -110,6 +110,7 @@ class Model {
       if constexpr (is_material<I>) set_constants(active.item);
       if constexpr (is_summed<I>) check_summed(active.item);
     });
+    check_dispersion();
     prepare_exclusions();
   }
 
@@ -257,9 +258,10 @@ class Model {
     neighbours::complete_bonds<Dim>(active.item.bonds, a.positions(), b.positions(), same, box_, same ? a.name : a.name + " and " + b.name);
     using GroupA = std::remove_cvref_t<decltype(a)>;
     using GroupB = std::remove_cvref_t<decltype(b)>;
-    if constexpr (mobile<GroupA>)
+    constexpr bool dispersive = bond::IsDispersive<decltype(I::law)>;  // particles that do not move know the strain of their bonds too
+    if constexpr (mobile<GroupA> || dispersive)
       active.of_a.build(a.blocks, active.item.bonds, same, false, Lanes::width, {GroupB::Records::stride, GroupA::Sums::stride});
-    if constexpr (mobile<GroupB> && !same)
+    if constexpr ((mobile<GroupB> || dispersive) && !same)
       active.of_b.build(b.blocks, active.item.bonds, false, true, Lanes::width, {GroupA::Records::stride, GroupB::Sums::stride});
     a.may_be_sorted = b.may_be_sorted = false;
     if constexpr (bond::HasMemory<decltype(I::law)>) {
@@ -268,6 +270,23 @@ class Model {
     }
   }
 
+  /// Bonds that share the strain of a particle must share it alike: else there is no energy.
+  void check_dispersion() const {
+    for_each_group([&](const auto& g) {
+      double share = std::numeric_limits<double>::quiet_NaN();
+      for_each_item([&](const auto& active) {
+        using I = std::remove_cvref_t<decltype(active.item)>;
+        if constexpr (is_bonds<I>)
+          if constexpr (bond::IsDispersive<decltype(I::law)> && detail::joins<typename std::remove_cvref_t<decltype(g)>::Tag, I>) {
+            const double own = active.item.law.dispersive_share;
+            if (own != share && share == share)
+              throw ParameterError("bonds of " + g.name + ": dispersive_share must be the same of all bonds of a group that have one, " +
+                                   to_text(share) + ", got " + to_text(own));
+            share = own;
+          }
+      });
+    });
+  }
   template <class... Tag, class Law>
   void check_summed(const Summed<std::tuple<Tag...>, Law>& summed) const {
     (check_reach<Tag>(summed.law), ...);

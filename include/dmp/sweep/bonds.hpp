@@ -76,7 +76,22 @@ class Periods {
 struct BondRecords {
   const double* own;       ///< of the particle
   const double* partners;  ///< of the group at the other ends
+  int own_strain = 0, strain_of_partners = 0;  ///< where the records of either group have the field::BondStrain, if the law reads it
 };
+
+/// r_i - r_j [m] of a particle and a partner, by the shortest way through the periodic faces.
+template <int Dim, bool Periodic, bool PositionsAlone>
+[[nodiscard, gnu::always_inline]] inline Row<Dim> separation_of(const Row<Dim>& own, const double* partner,
+                                                                [[maybe_unused]] const Row<Dim>& period,
+                                                                [[maybe_unused]] const Row<Dim>& per_period) noexcept {
+  Row<Dim> apart = own - Row<Dim>::load(partner);
+  if constexpr (!PositionsAlone) apart = apart.alone();
+  if constexpr (Periodic)
+    unrolled<Row<Dim>::registers>([&](auto r) __attribute__((always_inline)) {
+      apart.part[r] = apart.part[r] - period.part[r] * nearest_whole(apart.part[r] * per_period.part[r]);
+    });
+  return apart;
+}
 
 /// What changes in the bonds of a law in the step under way: nothing ...
 struct NoMemory {};
@@ -133,12 +148,7 @@ template <int Dim, bool Periodic, bool PositionsAlone = false, class React, clas
     unrolled<width>([&](auto lane) __attribute__((always_inline)) {
       const double* const partner = records.partners + bonds.partner[k + lane];
       auto& apart = separation[lane];
-      apart = own_position - Row<Dim>::load(partner);
-      if constexpr (!PositionsAlone) apart = apart.alone();
-      if constexpr (Periodic)
-        unrolled<Row<Dim>::registers>([&](auto r) __attribute__((always_inline)) {
-          apart.part[r] = apart.part[r] - period.part[r] * nearest_whole(apart.part[r] * per_period.part[r]);
-        });
+      apart = separation_of<Dim, Periodic, PositionsAlone>(own_position, partner, period, per_period);
       squares[lane] = products(apart, apart);
       if constexpr (with_velocity) approaches[lane] = products(apart, (own_velocity - Row<Dim>::load(partner + Dim)).alone());
     });
@@ -148,7 +158,13 @@ template <int Dim, bool Periodic, bool PositionsAlone = false, class React, clas
     const auto stretch = [&]() __attribute__((always_inline)) {
       if constexpr (with_velocity)
         return bond::MovingStretch<Lanes>{{length, rest_length}, select(length_squared > 0.0, inverse * sum_across(approaches), 0.0)};
-      else return bond::Stretch<Lanes>{length, rest_length};
+      else if constexpr (bond::IsDispersive<Law>) {
+        double strain_of_partner[width];
+        for (std::size_t lane = 0; lane < width; ++lane)
+          strain_of_partner[lane] = records.partners[bonds.partner[k + lane] + static_cast<std::size_t>(records.strain_of_partners)];
+        return bond::Dispersing<bond::Stretch<Lanes>, Lanes>{{length, rest_length},
+                                                             records.own[records.own_strain] + Lanes::load(strain_of_partner)};
+      } else return bond::Stretch<Lanes>{length, rest_length};
     }
     ();
     const auto seen = [&]() __attribute__((always_inline)) {
@@ -164,7 +180,7 @@ template <int Dim, bool Periodic, bool PositionsAlone = false, class React, clas
       }
     }
     ();
-    if constexpr (bond::CanBreak<Law>) {
+    if constexpr (bond::CanBreak<Law> && !bond::IsDispersive<Law>) {  // those have been asked by sum_strains
       rest_length = select(law.breaks(seen), neighbours::BondList::filler, rest_length);
       rest_length.store(memory.at.rest_length + k);
     }
@@ -178,6 +194,40 @@ template <int Dim, bool Periodic, bool PositionsAlone = false, class React, clas
     });
   }
   return force;
+}
+
+/// Adds theta = k r0 (r - r0) [J] and S = k r0^2 [J] of the bonds of a particle to doubles `own` and `own` + 1 of `sums`, and where a bond
+/// is listed once, to those of its partner; bonds that break now count no more.
+template <int Dim, bool Periodic, class Law, class Memory = NoMemory>
+[[gnu::always_inline]] inline void sum_strains(const BondRecords records, const neighbours::BondList::Entries bonds,
+                                               [[maybe_unused]] const Periods<Dim>& periods, double* const sums, std::size_t own,
+                                               const Law law, [[maybe_unused]] const Memory memory = {}) noexcept {
+  constexpr int width = Lanes::width;
+  const auto own_position = Row<Dim>::load(records.own);
+  const auto period = periods.length(), per_period = periods.inverse();
+  Lanes totals[2]{Lanes(0.0), Lanes(0.0)};
+  for (std::size_t k = 0; k < bonds.size; k += width) {
+    Lanes squares[width];
+    unrolled<width>([&](auto lane) __attribute__((always_inline)) {
+      const auto apart =
+          separation_of<Dim, Periodic, false>(own_position, records.partners + bonds.partner[k + lane], period, per_period);
+      squares[lane] = products(apart, apart);
+    });
+    Lanes rest_length = Lanes::load(bonds.rest_length + k);
+    const Lanes length = sqrt(sum_across(squares));
+    if constexpr (bond::CanBreak<Law>) {
+      rest_length = select(law.breaks(bond::Stretch<Lanes>{length, rest_length}), neighbours::BondList::filler, rest_length);
+      rest_length.store(memory.at.rest_length + k);
+    }
+    const Lanes lever = law.stiffness * Lanes::load(bonds.weight + k * bonds.weight_step) * rest_length;
+    const Lanes terms[2]{select(rest_length >= 0.0, lever * (length - rest_length), 0.0),
+                         select(rest_length >= 0.0, lever * rest_length, 0.0)};
+    for (int n = 0; n < 2; ++n) totals[n] += terms[n];
+    add_transposed<2>(sums, 1, bonds.reaction + k, terms);
+  }
+  double total[2];
+  sum_transposed<2>(totals, total);
+  for (std::size_t n = 0; n < 2; ++n) sums[own + n] += total[n];
 }
 
 }  // namespace dmp::sweep
