@@ -153,25 +153,27 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
       using G = std::remove_cvref_t<decltype(g)>;
       static_assert(G::Sums::stride >= 2);
       for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-        for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
-          const std::size_t own = i * static_cast<std::size_t>(G::Sums::stride);
-          for_each_item([&](auto& active) {
-            using I = std::remove_cvref_t<decltype(active.item)>;
-            if constexpr (is_bonds<I>)
-              if constexpr (bond::IsDispersive<decltype(I::law)>) {
-                const auto add = [&]<class Source>(std::type_identity<Source>, neighbours::BondList& list) {
+        for_each_item([&](auto& active) {
+          using I = std::remove_cvref_t<decltype(active.item)>;
+          if constexpr (is_bonds<I>)
+            if constexpr (bond::IsDispersive<decltype(I::law)>) {
+              const auto add = [&]<class Source>(std::type_identity<Source>, neighbours::BondList& list) {
+                const auto& law = active.item.law;
+                for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
                   const auto records = records_for(g, i, this->template group<Source>());
                   const auto memory = active.recall.of(list, i);
+                  const std::size_t own = i * static_cast<std::size_t>(G::Sums::stride);
                   double* const sums = g.sums.data();
-                  const auto& law = active.item.law;
                   if (list.crosses(i)) sweep::sum_strains<Dim, true>(records, list.of(i), bond_periods_, sums, own, law, memory);
                   else sweep::sum_strains<Dim, false>(records, list.of(i), bond_periods_, sums, own, law, memory);
-                };
-                if constexpr (std::is_same_v<typename G::Tag, typename I::A>) add(std::type_identity<typename I::B>{}, active.of_a);
-                else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) add(std::type_identity<typename I::A>{}, active.of_b);
-              }
-          });
-          double* const sums = g.sums.data() + own;  // theta and S, zero again for the forces
+                }
+              };
+              if constexpr (std::is_same_v<typename G::Tag, typename I::A>) add(std::type_identity<typename I::B>{}, active.of_a);
+              else if constexpr (std::is_same_v<typename G::Tag, typename I::B>) add(std::type_identity<typename I::A>{}, active.of_b);
+            }
+        });
+        for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
+          double* const sums = g.sums.data() + i * static_cast<std::size_t>(G::Sums::stride);  // theta and S, zero again for the forces
           g.template get<field::BondStrain>()[i] = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
           sums[0] = sums[1] = 0.0;
         }
