@@ -1,31 +1,31 @@
 #pragma once
-#include <cmath>
 #include <concepts>
 
 /// Functions of one number that every value type T of a law offers: here for double; for a SIMD pack in core/pack.hpp; a user's
 /// own number type brings overloads in its own namespace. Laws call them unqualified. Branches in a law are `select`, `min`, `max`.
+/// Built-in functions of the compiler: <cmath> would be a third of what a law alone costs to compile (docs/performance.md).
 namespace dmp {
 
 // Templates, so that a user's code that also sees the functions of <math.h> is not ambiguous.
 template <std::same_as<double> T>
 [[nodiscard]] T sqrt(T x) noexcept {
-  return std::sqrt(x);
+  return __builtin_sqrt(x);
 }
 template <std::same_as<double> T>
 [[nodiscard]] T exp(T x) noexcept {
-  return std::exp(x);
+  return __builtin_exp(x);
 }
 template <std::same_as<double> T>
 [[nodiscard]] T log(T x) noexcept {
-  return std::log(x);
+  return __builtin_log(x);
 }
 template <std::same_as<double> T>
 [[nodiscard]] T abs(T x) noexcept {
-  return std::fabs(x);
+  return __builtin_fabs(x);
 }
 template <std::same_as<double> T>
 [[nodiscard]] T pow(T x, double n) noexcept {
-  return std::pow(x, n);
+  return __builtin_pow(x, n);
 }
 [[nodiscard]] constexpr double min(double a, double b) noexcept { return b < a ? b : a; }
 [[nodiscard]] constexpr double max(double a, double b) noexcept { return a < b ? b : a; }

@@ -134,22 +134,9 @@ class Blocks {
   /// Gives every thread blocks of about the same total cost; `cost(block)` in any unit.
   template <class Cost>
   void divide(const Cost& cost) {
-    double total = 0.0;
-    for (std::size_t b = 0; b < size(); ++b) total += cost(b);
-    const std::size_t parts = worth_ranges();
-    first_block_.assign(1, 0);
-    double reached = 0.0;
-    for (std::size_t b = 0; b < size(); ++b) {  // a block goes where its middle lies
-      const double middle = reached + 0.5 * cost(b);
-      while (first_block_.size() < parts && middle * static_cast<double>(parts) >= total * static_cast<double>(first_block_.size()))
-        first_block_.push_back(b);
-      reached += cost(b);
-    }
-    first_block_.resize(parts, size());
-    first_block_.push_back(size());
-    std::vector<std::size_t> rows;
-    for (const std::size_t b : first_block_) rows.push_back(bounds_[b]);
-    ranges_ = Ranges(std::move(rows));
+    std::vector<double> costs(size());
+    for (std::size_t b = 0; b < size(); ++b) costs[b] = cost(b);
+    divide_by(costs);
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return bounds_.size() - 1; }
@@ -159,6 +146,24 @@ class Blocks {
   [[nodiscard]] std::size_t first_block(std::size_t range) const noexcept { return first_block_[range]; }
 
  private:
+  void divide_by(std::span<const double> cost) {
+    double total = 0.0;
+    for (const double c : cost) total += c;
+    const std::size_t parts = worth_ranges();
+    first_block_.assign(1, 0);
+    double reached = 0.0;
+    for (std::size_t b = 0; b < size(); ++b) {  // a block goes where its middle lies
+      const double middle = reached + 0.5 * cost[b];
+      while (first_block_.size() < parts && middle * static_cast<double>(parts) >= total * static_cast<double>(first_block_.size()))
+        first_block_.push_back(b);
+      reached += cost[b];
+    }
+    first_block_.resize(parts, size());
+    first_block_.push_back(size());
+    std::vector<std::size_t> rows;
+    for (const std::size_t b : first_block_) rows.push_back(bounds_[b]);
+    ranges_ = Ranges(std::move(rows));
+  }
   [[nodiscard]] std::size_t worth_ranges() const { return std::min(Ranges(bounds_.back()).size(), size()); }
   void divide_evenly() {
     divide([this](std::size_t b) { return static_cast<double>(end(b) - begin(b)); });

@@ -36,13 +36,10 @@ template <int Dim>
 class CellGrid {
  public:
   /// Sorts `positions` into cells of at least `cell_width` [m]; wider where that would make many more cells than particles.
-  void build(std::span<const Vector<Dim>> positions, double cell_width) {
-    build(
-        positions.size(), [&](std::size_t k) -> const Vector<Dim>& { return positions[k]; }, cell_width);
-  }
-  /// The same for position(0 .. count - 1).
-  template <class Position>
-  void build(std::size_t count, const Position& position, double cell_width) {
+  void build(std::span<const Vector<Dim>> positions, double cell_width) { build(Positions<Dim>{positions}, cell_width); }
+  /// The same for particles and their ghosts.
+  void build(const Positions<Dim>& position, double cell_width) {
+    const std::size_t count = position.size();
     cells_ = Cells<Dim>(count, position, cell_width);
     sort_.sort(count, cells_.total(), [&](std::size_t k) { return cells_.index(position(k)); });
     const std::span<const std::uint32_t> rows = sort_.rows();

@@ -3,12 +3,27 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
 
 namespace dmp::neighbours {
+
+/// Positions of particles, and after them those of their ghosts: row owner[k], moved by shift[k].
+template <int Dim>
+struct Positions {
+  std::span<const Vector<Dim>> particles;
+  std::span<const std::uint32_t> owner{};
+  std::span<const Vector<Dim>> shift{};
+
+  [[nodiscard]] std::size_t size() const noexcept { return particles.size() + owner.size(); }
+  [[nodiscard]] Vector<Dim> operator()(std::size_t k) const noexcept {
+    if (k < particles.size()) return particles[k];
+    return particles[owner[k - particles.size()]] + shift[k - particles.size()];
+  }
+};
 
 /// Equal cells over the bounding box of some positions.
 template <int Dim>

@@ -18,8 +18,7 @@ class SpatialOrder {
  public:
   /// `particles_per_cell`: where there are any, 0 unknown.
   void build(std::span<const Vector<Dim>> positions, double cell_width, double particles_per_cell) {
-    const Cells<Dim> cells(
-        positions.size(), [&](std::size_t k) -> const Vector<Dim>& { return positions[k]; }, cell_width);
+    const Cells<Dim> cells(positions.size(), Positions<Dim>{positions}, cell_width);
     if (!(particles_per_cell > 0.0)) particles_per_cell = static_cast<double>(positions.size()) / static_cast<double>(cells.total());
     const double side =
         std::pow(static_cast<double>(Blocks::rows_wanted(positions.size())) / std::max(particles_per_cell, 1e-3), 1.0 / Dim);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -119,22 +120,38 @@ void check_input(Engine<Dim, Rest...>& engine) {
   });
 }
 
-template <int Dim, class... Rest, class A, class B>
-void reject_overlap(const Engine<Dim, Rest...>& engine, const A& a, const B& b, const neighbours::PairList& pairs) {
+namespace detail {
+/// Where the particles of a group are, without its type.
+template <int Dim>
+struct Placed {
+  template <class G>
+  explicit Placed(const G& g)
+      : name(g.name), spacing(g.spacing), blocks(g.blocks), positions(g.positions()), id(g.id), first_ghost(g.first_ghost()),
+        sources(g.sources(false)) {}
+  const std::string& name;
+  double spacing;
+  const Blocks& blocks;
+  std::span<const Vector<Dim>> positions;
+  std::span<const std::uint32_t> id;
+  std::size_t first_ghost;
+  neighbours::PairList::Sources sources;
+};
+template <int Dim>
+void reject_overlap(const geometry::Box<Dim>& box, const Placed<Dim>& a, const Placed<Dim>& b, const neighbours::PairList& pairs) {
   const double least = 0.5 * std::min(a.spacing, b.spacing);
-  if constexpr (A::Mobility::evolves)
-    for (std::size_t block = 0; block < a.blocks.size(); ++block)
-      for (std::size_t i = a.blocks.begin(block); i < a.blocks.end(block); ++i)
-        for (const std::uint32_t row : pairs.all(block, i)) {
-          if (row >= b.size() && row < b.first_ghost()) continue;  // fills up the pack
-          const std::size_t j = b.sources(false).original(row);
-          const double distance = neighbours::minimum_image<Dim>(a.positions()[i] - b.positions()[j], engine.box()).norm();
-          if (distance < least)
-            throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " +
-                                 b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
-                                 to_text(distance));
-        }
+  for (std::size_t block = 0; block < a.blocks.size(); ++block)
+    for (std::size_t i = a.blocks.begin(block); i < a.blocks.end(block); ++i)
+      for (const std::uint32_t row : pairs.all(block, i)) {
+        if (row >= b.positions.size() && row < b.first_ghost) continue;  // fills up the pack
+        const std::size_t j = b.sources.original(row);
+        const double distance = neighbours::minimum_image<Dim>(a.positions[i] - b.positions[j], box).norm();
+        if (distance < least)
+          throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " +
+                               b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
+                               to_text(distance));
+      }
 }
+}  // namespace detail
 /// Particles closer than half their spacing at the start are a fill done twice, or two fills that overlap. Throws ParameterError.
 template <int Dim, class... Rest>
 void reject_overlaps(const Engine<Dim, Rest...>& engine) {
@@ -143,8 +160,10 @@ void reject_overlaps(const Engine<Dim, Rest...>& engine) {
     if constexpr (is_interaction<I>) {
       const auto& a = engine.template group<typename I::A>();
       const auto& b = engine.template group<typename I::B>();
-      reject_overlap(engine, a, b, active.of_a);
-      if constexpr (!std::is_same_v<typename I::A, typename I::B>) reject_overlap(engine, b, a, active.of_b);
+      const detail::Placed<Dim> of_a(a), of_b(b);
+      if (std::remove_cvref_t<decltype(a)>::Mobility::evolves) detail::reject_overlap(engine.box(), of_a, of_b, active.of_a);
+      if (!std::is_same_v<typename I::A, typename I::B> && std::remove_cvref_t<decltype(b)>::Mobility::evolves)
+        detail::reject_overlap(engine.box(), of_b, of_a, active.of_b);
     }
   });
 }

@@ -144,13 +144,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
           throw ParameterError("scene: a periodic box must be longer than support radius and skin (" + to_text(reach) + " m), got " +
                                to_text(period));
       g.ghosts.build(g.positions(), this->box_, reach);
-      g.grid.build(
-          g.size() + g.ghosts.size(),
-          [&g](std::size_t k) -> Vector<Dim> {
-            if (k < g.size()) return g.positions()[k];
-            return g.positions()[g.ghosts.owner[k - g.size()]] + g.ghosts.shift[k - g.size()];
-          },
-          0.5 * reach);
+      g.grid.build({g.positions(), g.ghosts.owner, g.ghosts.shift}, 0.5 * reach);
     }
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <type_traits>
 #include <string>
 #include <utility>
@@ -22,7 +23,9 @@ class VtkOutput {
 
   template <class Scene>
   void operator()(Scene& scene) {
-    scene.engine().for_each_group([&](auto& group) { write(group, derived(scene, group), scene.time()); });
+    scene.engine().for_each_group([&](auto& group) {
+      write<std::remove_cvref_t<Scene>::dimension>(group.view(), group.positions(), derived(scene, group), scene.time());
+    });
     ++frame_;
   }
 
@@ -50,10 +53,9 @@ class VtkOutput {
     });
     return result;
   }
-  template <class Group>
-  void write(Group& group, const std::vector<Derived>& derived, double time) {
-    io::PointCloud<Group::Dim> cloud{.positions = group.positions(), .ids = group.id};
-    const auto view = group.view();
+  template <int Dim>
+  void write(const particles::GroupView& view, std::span<const Vector<Dim>> positions, const std::vector<Derived>& derived, double time) {
+    io::PointCloud<Dim> cloud{.positions = positions, .ids = view.id};
     for (std::size_t column = 1; column < view.columns.size(); ++column) {
       const auto& values = view.columns[column];
       cloud.data.push_back({std::string(values.name) + " [" + std::string(values.unit) + "]", values.values, values.components});
@@ -61,9 +63,9 @@ class VtkOutput {
     for (const auto& one : derived) cloud.data.push_back({one.name, one.values, 1});
     char number[16];
     std::snprintf(number, sizeof number, "_%04d.vtp", frame_);
-    const auto path = folder_ / (group.name + number);
+    const auto path = folder_ / (view.name + number);
     io::write_vtp(path, cloud);
-    series_->add(time, group.name, path);
+    series_->add(time, view.name, path);
   }
 
   io::OutputFolder folder_;

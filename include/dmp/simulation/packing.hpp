@@ -29,9 +29,7 @@ class Packing : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   /// Calls function(laws...) with the material laws of a group; what was chosen at run time is looked up here, once.
   template <class G, class Function>
   void with_materials(const G&, Function&& function) const {
-    const auto laws =
-        std::apply([](const auto&... active) { return std::tuple_cat(laws_for<typename G::Tag>(active.item)...); }, this->items());
-    std::apply([&](const auto&... law) { sweep::with_chosen(function, law...); }, laws);
+    std::apply([&](const auto&... law) { sweep::with_chosen(function, law...); }, laws_for<typename G::Tag>());
   }
   /// Particle i as the material laws complete it: state, pressure term, viscosity, ...; `dt` [s] is the step under way, 0 between steps.
   template <class G, class... Law>
@@ -160,8 +158,12 @@ class Packing : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   }
 
  private:
+  template <class Tag>
+  [[nodiscard]] auto laws_for() const {  // of all materials that concern the group; apart from what is done with them: compiled once
+    return std::apply([](const auto&... active) { return std::tuple_cat(laws_of<Tag>(active.item)...); }, this->items());
+  }
   template <class Tag, class I>
-  static auto laws_for(const I& item) {  // of a material that concerns the group
+  static auto laws_of(const I& item) {
     if constexpr (is_material<I>)
       if constexpr (I::template concerns<Tag>) return std::apply([](const auto&... law) { return std::tie(law...); }, item.laws);
       else return std::tuple<>();

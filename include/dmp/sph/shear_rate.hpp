@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <string_view>
 #include <Eigen/LU>
 #include <dmp/core/field.hpp>

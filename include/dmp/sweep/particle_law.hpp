@@ -174,16 +174,24 @@ void validate(const ChosenOf<L...>& chosen) {
   std::visit([](const auto& law) { check_parameters(law); }, chosen.choice);
 }
 
-/// Calls function(laws...) with the laws themselves: of each ChosenOf the one that has been chosen.
+namespace detail {
 template <class Function>
-void with_chosen(Function&& function) {
+void choose_first(Function&& function) {
   function();
 }
 template <class Function, class First, class... Rest>
-void with_chosen(Function&& function, const First& first, const Rest&... rest) {
-  const auto go_on = [&](const auto& law) { with_chosen([&](const auto&... others) { function(law, others...); }, rest...); };
+void choose_first(Function&& function, const First& first, const Rest&... rest) {
+  const auto go_on = [&](const auto& law) { choose_first([&](const auto&... others) { function(law, others...); }, rest...); };
   if constexpr (requires { first.choice; }) std::visit(go_on, first.choice);
   else go_on(first);
+}
+}  // namespace detail
+
+/// Calls function(laws...) with the laws themselves: of each ChosenOf the one that has been chosen.
+template <class Function, class... Law>
+void with_chosen(Function&& function, const Law&... law) {
+  if constexpr ((requires { law.choice; } || ...)) detail::choose_first(function, law...);
+  else function(law...);
 }
 
 /// Whether a law restricts the particles it can work with; then it must say what it demands.
