@@ -12,6 +12,7 @@
 #include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/particles/mobility.hpp>
+#include <dmp/simulation/contacts.hpp>
 #include <dmp/simulation/scene.hpp>
 
 namespace dmp::simulation {
