@@ -50,7 +50,7 @@ struct Pressed {
   double force;           // mean of both plates [N]
   double difference;      // of their forces, as a fraction
   double contact_radius;  // mean of both [m]
-  double penetration;     // sqrt(force per bead/S), of one plate: by so much the beads approach less than the plates [m]; 0 of contact planes
+  double penetration;     // sqrt(force per bead/S), of one plate: by so much the beads approach less [m]; 0 of contact planes
   std::size_t touching;   // beads, both plates
 };
 

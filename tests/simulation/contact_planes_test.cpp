@@ -437,6 +437,6 @@ TEST_CASE("contact planes refuse what they cannot do, and name it") {
         "scene: a contact plane must lie along periodic directions, the component of its normal there be 0, got 1");
   const ContactPlane<2> lid{.normal = {{0.0, -1.0}}, .position = -1.0, .motion = {.speed = 1.0}};
   auto crushed = on(Box<2>::unbounded(), confined_by<Beads>(ContactPlane<2>{.normal = {{0.0, 1.0}}, .position = 0.0}, lid));
-  CHECK_THROWS_WITH_AS(crushed.run({.until = 2.0, .time_step = 0.01}), doctest::Contains("is behind a contact plane: planes leave it no room"),
-                       SimulationError);
+  CHECK_THROWS_WITH_AS(crushed.run({.until = 2.0, .time_step = 0.01}),
+                       doctest::Contains("is behind a contact plane: planes leave it no room"), SimulationError);
 }

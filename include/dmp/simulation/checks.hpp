@@ -138,7 +138,8 @@ void check_input(Engine<Dim, Rest...>& engine) {
       for (const auto& plane : active.item.planes)
         for (int d = 0; d < Dim; ++d)
           require(!engine.box().periodic[static_cast<std::size_t>(d)] || std::fabs(plane.normal.value[d]) <= 1e-12,
-                  "scene: a contact plane must lie along periodic directions, the component of its normal there be 0", plane.normal.value[d]);
+                  "scene: a contact plane must lie along periodic directions, the component of its normal there be 0",
+                  plane.normal.value[d]);
   });
 }
 

@@ -203,7 +203,8 @@ struct Confined<std::tuple<Tag...>, Dim, Count> {
 template <class... Tag, int Dim, class... More>
 [[nodiscard]] auto confined_by(const forcing::ContactPlane<Dim>& first, const More&... more) {
   static_assert(sizeof...(Tag) > 0, "dmp: confined_by<Groups...>(planes...) names no group");
-  static_assert((std::is_same_v<More, forcing::ContactPlane<Dim>> && ...), "dmp: confined_by: all planes must be forcing::ContactPlane<Dim>");
+  static_assert((std::is_same_v<More, forcing::ContactPlane<Dim>> && ...),
+                "dmp: confined_by: all planes must be forcing::ContactPlane<Dim>");
   const Confined<std::tuple<Tag...>, Dim, 1 + sizeof...(More)> result{{first, more...}};
   for (std::size_t a = 0; a < result.planes.size(); ++a) {
     check_parameters(result.planes[a]);

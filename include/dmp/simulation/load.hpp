@@ -8,6 +8,7 @@
 #include <dmp/bond/concept.hpp>
 #include <dmp/forcing/concept.hpp>
 #include <dmp/forcing/contact_plane.hpp>
+#include <dmp/simulation/composition.hpp>
 #include <dmp/simulation/contacts.hpp>
 
 namespace dmp::simulation {
