@@ -26,6 +26,11 @@ Options options(int argc, char** argv, const std::string& name, const std::strin
   if (offered.safety)
     parser.add_option("--safety", result.safety, "fraction of the bounds of the time step, instead of the example's own step")
         ->check(CLI::Range(0.01, 1.0));
+  std::string contact = "penalty";
+  if (offered.contact)
+    parser.add_option("--contact", contact, "plates push back what is behind them (penalty), or nothing gets behind them (true)")
+        ->check(CLI::IsMember({"penalty", "true"}))
+        ->capture_default_str();
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {
@@ -34,6 +39,7 @@ Options options(int argc, char** argv, const std::string& name, const std::strin
   dmp::use_threads(threads);
   if (quick) result.size = Size::quick;
   if (full) result.size = Size::full;
+  result.true_contact = contact == "true";
   return result;
 }
 

@@ -38,13 +38,19 @@ constexpr double plate_strength = 1e10;  // S [N/m^2]
   return {.normal = {{0.0, 0.0, -side}}, .position = -outermost, .strength = plate_strength, .motion = {.speed = 0.5}};
 }
 
+/// The same plate without penetration.
+[[nodiscard]] inline dmp::forcing::ContactPlane<3> contact_plate(const std::vector<dmp::Vector<3>>& body, double side) {
+  const auto plane = plate(body, side);
+  return {.normal = plane.normal, .position = plane.position, .motion = plane.motion};
+}
+
 /// One state of the body at rest between the plates.
 struct Pressed {
   double approach;        // delta of the plates since first touch [m]
   double force;           // mean of both plates [N]
   double difference;      // of their forces, as a fraction
   double contact_radius;  // mean of both [m]
-  double penetration;     // sqrt(force per bead/S), of one plate: by so much the beads approach less than the plates [m]
+  double penetration;     // sqrt(force per bead/S), of one plate: by so much the beads approach less [m]; 0 of contact planes
   std::size_t touching;   // beads, both plates
 };
 
@@ -55,9 +61,9 @@ struct PressOptions {
 };
 
 /// Presses a scene of Beads between its plates in equal steps, from one state of rest to the next; looked_at(pressed) after each.
-template <class Scene, class Look>
-std::vector<Pressed> press(Scene& scene, const dmp::forcing::Plane<3>& below, const dmp::forcing::Plane<3>& above,
-                           const PressOptions& options, std::uint64_t& evaluations, const Look& looked_at) {
+template <class Scene, class Plate, class Look>
+std::vector<Pressed> press(Scene& scene, const Plate& below, const Plate& above, const PressOptions& options, std::uint64_t& evaluations,
+                           const Look& looked_at) {
   std::vector<Pressed> curve;
   const int steps = static_cast<int>(std::ceil(options.approach / options.largest_step - 1e-9));
   const double height = -below.position - above.position, step = options.approach / steps;
@@ -71,11 +77,12 @@ std::vector<Pressed> press(Scene& scene, const dmp::forcing::Plane<3>& below, co
                high = dmp::simulation::load_on<Beads>(scene, above, approach);
     const double force = 0.5 * (low.force[2] - high.force[2]);
     const std::size_t touching = low.particles + high.particles;
+    constexpr bool is_penalty = requires { below.strength; };
     curve.push_back({.approach = approach,
                      .force = force,
                      .difference = (low.force[2] + high.force[2]) / force,
                      .contact_radius = 0.5 * (low.radius + high.radius),
-                     .penetration = std::sqrt(2.0 * force / (static_cast<double>(touching) * plate_strength)),
+                     .penetration = is_penalty ? std::sqrt(2.0 * force / (static_cast<double>(touching) * plate_strength)) : 0.0,
                      .touching = touching});
     looked_at(curve.back());
   }

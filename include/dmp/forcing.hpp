@@ -6,4 +6,5 @@
 #include <dmp/forcing/pulsed.hpp>      // Heart beat: short push, weak backward pull.
 #include <dmp/forcing/drag.hpp>        // Linear drag towards rest (LAMMPS `fix viscous`).
 #include <dmp/forcing/plane.hpp>       // Rigid plane that pushes back what is behind it; may move.
+#include <dmp/forcing/contact_plane.hpp>  // Rigid plane that nothing gets behind; for confined_by, not itself a forcing.
 #include <dmp/forcing/ramp.hpp>        // Motion with a smooth start, constant speed and hold: of planes, not itself a forcing.

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -73,6 +74,23 @@ void check_state(Engine<Dim, Rest...>& engine, const Clock& clock) {
                                neighbours::minimum_image<Dim>(a.positions()[bond->i] - b.positions()[bond->j], engine.box()).norm()});
     }
   });
+  find_behind_planes(engine, clock.time, [&clock](const auto& g, std::size_t i, const auto& plane) {
+    throw SimulationError("a particle is behind a contact plane: planes leave it no room",
+                          {clock.time, clock.step, g.name, g.id[i], "distance behind it",
+                           plane.behind(to_components<Dim>(g.positions()[i]), clock.time)});
+  });
+}
+
+/// No particle may be behind a contact plane when a run begins. Throws ParameterError.
+template <int Dim, class... Rest>
+void check_places(const Engine<Dim, Rest...>& engine, double time) {
+  find_behind_planes(engine, time, [time](const auto& g, std::size_t i, const auto& plane) {
+    const auto place = to_components<Dim>(g.positions()[i]);
+    throw ParameterError("scene: group " + g.name + ", particle " + std::to_string(g.id[i]) +
+                         ": normal . position must be >= that of a contact plane, " +
+                         to_text(plane.position + plane.motion.displacement(time)) + " m, got " +
+                         to_text(dot(plane.normal.value, place)) + " (relax puts it on the plane)");
+  });
 }
 
 /// Every particle must be one that the material laws of its group can work with; `dt` [s] is the step under way. Throws SimulationError.
@@ -117,6 +135,12 @@ void check_input(Engine<Dim, Rest...>& engine) {
         throw ParameterError("scene: support radius (cut-off) of " + a.name + " and " + b.name + " must be >= their spacing " +
                              to_text(spacing) + " m, got " + to_text(active.item.cutoff()));
     }
+    if constexpr (is_confined<I>)
+      for (const auto& plane : active.item.planes)
+        for (int d = 0; d < Dim; ++d)
+          require(!engine.box().periodic[static_cast<std::size_t>(d)] || std::fabs(plane.normal.value[d]) <= 1e-12,
+                  "scene: a contact plane must lie along periodic directions, the component of its normal there be 0",
+                  plane.normal.value[d]);
   });
 }
 

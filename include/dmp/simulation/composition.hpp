@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -32,6 +33,10 @@ inline constexpr bool is_forced = false;
 template <class Tags, class... Law>
 inline constexpr bool is_forced<Forced<Tags, Law...>> = true;
 template <class T>
+inline constexpr bool is_confined = false;
+template <class Tags, int Dim, std::size_t Count>
+inline constexpr bool is_confined<Confined<Tags, Dim, Count>> = true;
+template <class T>
 inline constexpr bool is_summed = false;
 template <class Tags, class Law>
 inline constexpr bool is_summed<Summed<Tags, Law>> = true;
@@ -45,6 +50,11 @@ inline constexpr bool joins<G, Interaction<A, B, Law...>> = std::is_same_v<G, A>
 template <class G, class A, class B, class Law, bool S>
 inline constexpr bool joins<G, Bonds<A, B, Law, S>> = std::is_same_v<G, A> || std::is_same_v<G, B>;
 
+template <class Item>
+inline constexpr bool solves_dashpots = false;
+template <class A, class B>
+inline constexpr bool solves_dashpots<Bonds<A, B, ImplicitKelvinVoigt, false>> = true;
+
 template <class G, class H, class Item>
 inline constexpr bool joins_both = false;  // an interaction between G and H
 template <class G, class H, class A, class B, class... Law>
@@ -55,6 +65,11 @@ template <class G, class Item>
 inline constexpr bool acts_within = false;  // an interaction with G at both ends
 template <class G, class... Law>
 inline constexpr bool acts_within<G, Interaction<G, G, Law...>> = true;
+
+template <class G, class Item>
+inline constexpr bool confines = false;  // planes that G is not to get behind
+template <class G, class... Tag, int Dim, std::size_t Count>
+inline constexpr bool confines<G, Confined<std::tuple<Tag...>, Dim, Count>> = (std::is_same_v<G, Tag> || ...);
 
 template <class G, class Item>
 struct OfItem {
@@ -187,6 +202,12 @@ struct StartPosition {
   static constexpr bool is_vector = true;
 };
 
+/// With what contact planes push a particle.
+struct ContactForce {
+  static constexpr std::string_view name = "contact_force", unit = "N";
+  static constexpr bool is_vector = true;
+};
+
 /// What one group of a scene holds: sets of fields and yes-or-no answers, without the items they come from (which keeps names short).
 template <class Columns, class State, class Rates, class Record, class Constants, class Derived, class Writes, bool HasPairs, bool HasBonds,
           bool HasSubsteps, bool SumsInMemory>
@@ -235,6 +256,16 @@ struct Compose {
   static constexpr bool has_bonds = ((is_bonds<Item> && joins<Tag, Item>) || ...);
   static constexpr bool uses_velocity = (OfItem<Tag, Item>::uses_velocity || ...) || (OfSummed<Tag, Item, Item...>::uses_velocity || ...);
   static constexpr bool has_substeps = particles::is_mobile<Mobility> && (OfItem<Tag, Item>::substepped || ...);
+  static constexpr int confinements = (0 + ... + (confines<Tag, Item> ? 1 : 0));
+  static_assert(confinements <= 1, "dmp: two confined_by<...> concern the same group; name all its planes in one");
+  static_assert(confinements == 0 || std::is_same_v<Mobility, particles::Mobile>,
+                "dmp: confined_by: only mobile groups make way for a plane; driven groups and rollers follow their motion");
+  static_assert(confinements == 0 || !has_substeps,
+                "dmp: confined_by: where the particles of a group with sub-stepped bonds will be is not known; make them bonds<...>, or the "
+                "plane a forcing::Plane");
+  static_assert(confinements == 0 || !((solves_dashpots<Item> && joins<Tag, Item>) || ...),
+                "dmp: confined_by: the dashpots of implicit_bonds are solved for without contact; make them bonds<...>, or the plane a "
+                "forcing::Plane");
   template <bool Wanted, class... Field>
   using only_if = std::conditional_t<Wanted, Fields<Field...>, Fields<>>;
 
@@ -274,7 +305,7 @@ struct Compose {
                          unite<constants, derived, Fields<field::Position, field::Velocity>>>;
   using columns = unite<Fields<field::Position>, only_if<particles::is_mobile<Mobility>, field::Velocity, field::Acceleration>,
                         only_if<particles::is_driven<Mobility> || particles::is_roller<Mobility>, StartPosition, field::Velocity>,
-                        only_if<has_substeps, FastAcceleration>, state, rates,
+                        only_if<has_substeps, FastAcceleration>, only_if<confinements == 1, ContactForce>, state, rates,
                         std::conditional_t<KeepsRates, typename AllPrevious<rates>::type, Fields<>>>;
   using record = std::conditional_t<has_pairs || has_bonds,
                                     unite<Fields<field::Position>, only_if<uses_velocity, field::Velocity>, subtract<reads, constants>>,

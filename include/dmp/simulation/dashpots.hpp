@@ -14,13 +14,6 @@
 
 namespace dmp::simulation {
 
-namespace detail {
-template <class Item>
-inline constexpr bool has_implicit_dashpots = false;
-template <class A, class B>
-inline constexpr bool has_implicit_dashpots<Bonds<A, B, ImplicitKelvinVoigt, false>> = true;
-}  // namespace detail
-
 /// The dashpots of `implicit_bonds`, however stiff: a part of the acceleration that depends on the velocity at the end of the step.
 ///   v_half = v + (dt/2) a,  x += dt v_half,  (M + (dt/2) B(x)) v = M v_half + (dt/2) f(x),  a = M^-1 (f - B v)
 /// f [N] are all other forces, B [N s/m] has a block c n n^T for each bond. Only before the first step a = M^-1 (f - B v_half) instead. The
@@ -37,7 +30,7 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
 
  public:
   using Base::Base, Base::for_each_group, Base::for_each_item;
-  static constexpr bool has_dashpots = (detail::has_implicit_dashpots<Item> || ...);
+  static constexpr bool has_dashpots = (detail::solves_dashpots<Item> || ...);
   static constexpr int most_iterations = 10000;
 
   /// False if a step has not been solved to the tolerance that its items ask for.
@@ -90,7 +83,7 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
     AlignedVector<Vector<Dim>> change, residual, direction, drag;  // [m/s^2], [N], [m/s^2], [N]
   };
   template <class G>
-  static constexpr bool has_ends = ((detail::has_implicit_dashpots<Item> && detail::joins<typename std::remove_cvref_t<G>::Tag, Item>) ||
+  static constexpr bool has_ends = ((detail::solves_dashpots<Item> && detail::joins<typename std::remove_cvref_t<G>::Tag, Item>) ||
                                     ...);
   template <class G>
   static constexpr bool is_solved_for = has_ends<G>&& Base::template mobile<G>;
@@ -98,7 +91,7 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
   [[nodiscard]] double tolerance() const {
     double least = 1.0;
     for_each_item([&least](const auto& active) {
-      if constexpr (detail::has_implicit_dashpots<std::remove_cvref_t<decltype(active.item)>>)
+      if constexpr (detail::solves_dashpots<std::remove_cvref_t<decltype(active.item)>>)
         least = std::min(least, active.item.law.tolerance);
     });
     return least;
@@ -163,7 +156,7 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
         const auto add = g.sums.adder();
         for_each_item([&](auto& active) {
           using I = std::remove_cvref_t<decltype(active.item)>;
-          if constexpr (detail::has_implicit_dashpots<I>) {
+          if constexpr (detail::solves_dashpots<I>) {
             const auto& law = active.item.law.dashpot;
             for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
               if constexpr (std::is_same_v<typename G::Tag, typename I::A>)

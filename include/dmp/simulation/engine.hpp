@@ -135,6 +135,7 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
   void begin(G& g, std::size_t i, double dt, double time) {
     if constexpr (mobile<G>)
       Integrator::begin(g.positions()[i], g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
+    if constexpr (meets_planes<G>) stop_at_planes(*this, g, i, dt, time);
     follow_motion(g, i, time);
     begin_state(g, i, dt);
   }

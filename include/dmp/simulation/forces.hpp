@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 #include <dmp/integrator/concept.hpp>
+#include <dmp/simulation/contacts.hpp>
 #include <dmp/simulation/packing.hpp>
 #include <dmp/sweep/bonds.hpp>
 #include <dmp/sweep/gather.hpp>
@@ -316,6 +317,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
             if constexpr (contains<field::Force, typename C::writes>) acceleration += inverse_mass * to_vector<Dim>(total.force);
             if constexpr (!Fast) acceleration += forced(g, i, time, dt);
             if constexpr (particles::is_roller<typename G::Mobility>) acceleration -= g.mobility.held(acceleration);
+            if constexpr (!Fast && meets_planes<G>) add_contact_forces<Integrator>(*this, g, i, time, dt, acceleration);
             if constexpr (Fast) g.template get<FastAcceleration>()[i] = acceleration;
             else g.template get<field::Acceleration>()[i] = acceleration;
           }

@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -13,6 +15,7 @@
 #include <dmp/core/field.hpp>
 #include <dmp/core/require.hpp>
 #include <dmp/forcing/concept.hpp>
+#include <dmp/forcing/contact_plane.hpp>
 #include <dmp/geometry/fill.hpp>
 #include <dmp/neighbours/bond_list.hpp>
 #include <dmp/particles/mobility.hpp>
@@ -183,6 +186,39 @@ template <class... Tag, class... Law>
   static_assert(sizeof...(Tag) > 0, "dmp: forced_by<Groups...>(laws...) names no group");
   (check_parameters(law), ...);
   return Forced<std::tuple<Tag...>, Law...>{{law...}};
+}
+
+template <class Tags, int Dim, std::size_t Count>
+struct Confined;
+/// Planes that the particles of some groups do not get behind.
+template <class... Tag, int Dim, std::size_t Count>
+struct Confined<std::tuple<Tag...>, Dim, Count> {
+  template <class G>
+  static constexpr bool concerns = (std::is_same_v<G, Tag> || ...);
+  std::array<forcing::ContactPlane<Dim>, Count> planes;
+};
+/// confined_by<Beads>(forcing::ContactPlane<3>{...}, ...): true contact of mobile groups with rigid planes. Two planes must be opposite or
+/// at right angles. The force that keeps a particle from being behind a plane at the end of the next step,
+///   (m/dt^2) max(0, p(t + dt) - n . r(t + dt))  [N],   r(t + dt) as it would be without the plane,
+/// is one of the forces at t, and load_on measures it. After a change of the step, and in the first one, what is left of r behind the
+/// plane is taken out, and its speed with it. Costs no bound of the step. Contact is inelastic: the speed along n becomes that of the
+/// plane, a loss of (m/2)(difference)^2 per particle that meets it, which for a body vanishes as its beads become smaller.
+/// N. J. Carpenter, R. L. Taylor, M. G. Katona, Int. J. Numer. Methods Eng. 32 (1991) 103-128, doi:10.1002/nme.1620320107.
+template <class... Tag, int Dim, class... More>
+[[nodiscard]] auto confined_by(const forcing::ContactPlane<Dim>& first, const More&... more) {
+  static_assert(sizeof...(Tag) > 0, "dmp: confined_by<Groups...>(planes...) names no group");
+  static_assert((std::is_same_v<More, forcing::ContactPlane<Dim>> && ...),
+                "dmp: confined_by: all planes must be forcing::ContactPlane<Dim>");
+  const Confined<std::tuple<Tag...>, Dim, 1 + sizeof...(More)> result{{first, more...}};
+  for (std::size_t a = 0; a < result.planes.size(); ++a) {
+    check_parameters(result.planes[a]);
+    for (std::size_t b = 0; b < a; ++b) {
+      const double cosine = dot(result.planes[a].normal.value, result.planes[b].normal.value);
+      require(std::fabs(cosine) <= 1e-12 || std::fabs(cosine + 1.0) <= 1e-12,
+              "confined_by: planes must be opposite or at right angles, the product of two normals -1 or 0", cosine);
+    }
+  }
+  return result;
 }
 
 }  // namespace dmp::simulation

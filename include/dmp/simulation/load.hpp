@@ -7,7 +7,9 @@
 #include <dmp/core/vector.hpp>
 #include <dmp/bond/concept.hpp>
 #include <dmp/forcing/concept.hpp>
+#include <dmp/forcing/contact_plane.hpp>
 #include <dmp/simulation/composition.hpp>
+#include <dmp/simulation/contacts.hpp>
 
 namespace dmp::simulation {
 
@@ -23,14 +25,32 @@ struct Load {
 /// What a forcing does now to the particles of a group, e.g. how hard a plane presses and how wide the contact is:
 ///   load_on<Beads>(scene, plane).force
 /// The law need not be part of the scene. At `time` [s], if it is not the scene's. The same bits for any number of threads.
+/// A forcing::ContactPlane must be one of the scene's (ParameterError), and the force is that of its last evaluation, whatever `time`: in a
+/// run the one that keeps the particles in front for the next step, and what the step just made has needed besides.
 template <class Tag, class Scene, class Law>
 [[nodiscard]] Load<Scene::dimension> load_on(const Scene& scene, const Law& law, double time) {
   constexpr int dim = Scene::dimension;
-  static_assert(forcing::explain_forcing<Law, dim>());
+  constexpr bool is_contact = std::is_same_v<Law, forcing::ContactPlane<dim>>;
   check_parameters(law);
   const auto& g = scene.template group<Tag>();
+  if constexpr (is_contact) {
+    static_assert(meets_planes<decltype(g)>, "dmp: load_on: no confined_by of the scene concerns the group");
+    bool known = false;
+    for_each_plane(scene.engine(), g, [&](const auto& plane, const Vector<dim>& normal) {
+      known = known || (plane.position == law.position && normal == to_vector<dim>(law.normal));
+    });
+    require(known, "load_on: a contact plane must be one of the scene's, with its position [m] and normal", law.position);
+  } else {
+    static_assert(forcing::explain_forcing<Law, dim>());
+  }
   const auto force = [&](std::size_t i) -> Vector<dim> {
-    return g.mass * to_vector<dim>(law.acceleration(scene.engine().subject(g, i, time, 0.0)));
+    if constexpr (is_contact) {  // the forces of other planes have no part along this normal, or one against it
+      const Vector<dim> normal = to_vector<dim>(law.normal), all = g.template get<ContactForce>()[i];
+      const double part = normal.dot(all);
+      return part > 1e-9 * all.norm() ? Vector<dim>(part * normal) : Vector<dim>(Vector<dim>::Zero());
+    } else {
+      return g.mass * to_vector<dim>(law.acceleration(scene.engine().subject(g, i, time, 0.0)));
+    }
   };
   struct Sums {
     Vector<dim> force = Vector<dim>::Zero(), moment = Vector<dim>::Zero();

@@ -12,6 +12,7 @@
 #include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/particles/mobility.hpp>
+#include <dmp/simulation/contacts.hpp>
 #include <dmp/simulation/scene.hpp>
 
 namespace dmp::simulation {
@@ -28,6 +29,13 @@ struct RelaxReport {
 };
 
 namespace detail {
+
+/// A particle that a contact plane bears keeps its place on it.
+template <class G>
+[[nodiscard]] bool turns_with_body([[maybe_unused]] const G& g, [[maybe_unused]] std::size_t i) noexcept {
+  if constexpr (meets_planes<G>) return g.template get<ContactForce>()[i].isZero(0.0);
+  else return true;
+}
 
 /// The rigid rotation about the centre of mass, of all mobile groups together.
 template <int Dim>
@@ -74,6 +82,7 @@ struct Rotation {
       if constexpr (particles::is_mobile<typename std::remove_cvref_t<decltype(g)>::Mobility>)
         all.add(g.mass, sum_over_rows(g.blocks, Moments{}, [&](std::size_t i) {
                   Moments one;
+                  if (!turns_with_body(g, i)) return one;
                   one.position = g.positions()[i] - centre;
                   one.velocity = g.template get<field::Velocity>()[i];
                   one.acceleration = g.template get<field::Acceleration>()[i];
@@ -85,6 +94,7 @@ struct Rotation {
                   return one;
                 }));
     });
+    if (!(all.mass > 0.0)) return;
     const Vector<Dim> shift = all.position / all.mass;
     const Arms arm = arms(shift);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, turns, turns>> inertia(all.inertia - all.mass * (arm.transpose() * arm));
@@ -110,8 +120,9 @@ struct Rotation {
 
 /// Brings the mobile groups of a scene to rest in a minimum of their energy, by damped dynamics (FIRE): velocities are turned towards the
 /// forces while these do work, and set to zero when they do not. The clock of the scene stands still; velocities are zero afterwards, and
-/// accelerations those at `time`. For bonds, potentials and forcings of position; what damps serves no purpose. The same bits for any
-/// number of threads. Throws SimulationError if it does not converge.
+/// accelerations those at `time`. For bonds, potentials, forcings of position, and contact planes: these bear what presses at them, and
+/// what is behind one is put on it first. What damps serves no purpose. The same bits for any number of threads. Throws SimulationError if it
+/// does not converge.
 /// Takes a number of evaluations that grows as the square root of stiffest over softest: twice as many for twice the beads across.
 /// E. Bitzek, P. Koskinen, F. Gaehler, M. Moseler, P. Gumbsch, Phys. Rev. Lett. 97 (2006) 170201, doi:10.1103/PhysRevLett.97.170201.
 template <int Dim, class Integrator, class Precision, class... Item>
@@ -129,6 +140,7 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
   }() || ...),
                 "dmp: relax: bonds that break would do so on the way to the minimum; relax with the law inside of bond::Breaking");
   require_positive("relax: force_tolerance", options.force_tolerance, "N");
+  constexpr bool has_contacts = (is_confined<Item> || ...);
   constexpr double first_mixing = 0.1, mixing_decay = 0.99, growth = 1.1, shrinkage = 0.5, safety = 0.9;
   constexpr int patience = 5;               // steps downhill before the step grows
   constexpr std::uint64_t look_every = 20;  // evaluations after which bounds of the step are looked at again
@@ -167,6 +179,7 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
   };
   [[maybe_unused]] detail::Rotation<Dim> rotation;
   const auto look = [&] {
+    if constexpr (has_contacts) rest_on_planes(engine, time);
     if constexpr (Dim > 1)
       if (options.without_rotation) rotation.find(engine);
     Sums sums;
@@ -174,7 +187,7 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
       const double mass = g.mass;
       sums += sum_over_rows(g.blocks, Sums{}, [&](std::size_t i) {
         if constexpr (Dim > 1)
-          if (options.without_rotation) rotation.remove(g.positions()[i], velocity[i], acceleration[i]);
+          if (options.without_rotation && detail::turns_with_body(g, i)) rotation.remove(g.positions()[i], velocity[i], acceleration[i]);
         if constexpr (particles::is_roller<typename std::remove_cvref_t<decltype(g)>::Mobility>) {  // what is held does not come to rest
           velocity[i] -= g.mobility.held(velocity[i]);
           acceleration[i] -= g.mobility.held(acceleration[i]);
@@ -190,6 +203,7 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
   RelaxReport report;
   const auto look_from_rest = [&] {
     stop();
+    if constexpr (has_contacts) put_before_planes(engine, time);
     engine.evaluate(time, scene.step());
     ++report.evaluations;
     return look();
@@ -217,7 +231,7 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
     const bool worn = engine.begin_step(dt, time);
     if (worn) engine.build_lists(false);
     engine.prepare_forces(dt, scene.step(), worn);
-    engine.forces(dt, time);
+    engine.forces(has_contacts ? 0.0 : dt, time);  // planes stand still, as if there were no next step: rest_on_planes
     engine.end_step(dt);
     ++report.evaluations;
     moving = true;

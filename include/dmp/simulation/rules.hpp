@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <tuple>
 #include <type_traits>
 #include <dmp/forcing/concept.hpp>
@@ -29,6 +30,8 @@ inline constexpr bool names_groups<Groups, Material<std::tuple<Tag...>, Law...>>
 template <class Groups, class... Tag, class... Law>
 inline constexpr bool names_groups<Groups, Forced<std::tuple<Tag...>, Law...>> = (is_tag<Tag, Groups> && ...);
 
+template <class Groups, class... Tag, int Dim, std::size_t Count>
+inline constexpr bool names_groups<Groups, Confined<std::tuple<Tag...>, Dim, Count>> = (is_tag<Tag, Groups> && ...);
 template <class Groups, class... Tag, class Law>
 inline constexpr bool names_groups<Groups, Summed<std::tuple<Tag...>, Law>> = (is_tag<Tag, Groups> && ...);
 
@@ -55,6 +58,8 @@ template <int Dim, class Tags, class Law>
 inline constexpr bool laws_fit<Dim, Summed<Tags, Law>> = law_fits<Dim, Law>();
 template <int Dim, class Tags, class... Law>
 inline constexpr bool laws_fit<Dim, Forced<Tags, Law...>> = (forcing::explain_forcing<Law, Dim>() && ...);
+template <int Dim, class Tags, int PlaneDim, std::size_t Count>
+inline constexpr bool laws_fit<Dim, Confined<Tags, PlaneDim, Count>> = Dim == PlaneDim;
 template <int Dim, class Tag, class M, int GroupDim>
 inline constexpr bool laws_fit<Dim, GroupItem<Tag, M, GroupDim>> = Dim == GroupDim;
 template <int Dim, class Item>

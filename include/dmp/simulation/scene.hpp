@@ -108,6 +108,7 @@ class Scene {
     RunReport report;
     try {
       prepare();
+      check_places(engine_, clock_.time);
       report.limit = first_bounds();
       const double first_step = options.time_step > 0.0 ? options.time_step : options.safety * report.limit.time_step;
       if (!(first_step < std::numeric_limits<double>::infinity()))
