@@ -226,6 +226,12 @@ void cubes(double edge, std::size_t seeds, bool to_the_end, const io::OutputFold
                      name + "_line_1.csv' using 1:c with lines lw 2, " + to_text(theory) + " title 'theory' lc black");
 }
 
+/// Tells where a Poisson ratio is hard to work with.
+void warn_of(double poisson_ratio) {
+  const std::string warning = ElasticConstants<3>::from_young(1.0, poisson_ratio).warning();
+  if (!warning.empty()) std::printf("warning: %s\n", warning.c_str());
+}
+
 // ---- B8, B9: bars with E = 1, drawn by their ends.
 
 double bar_length = 20.0;
@@ -339,6 +345,7 @@ void bars_by_poisson_ratio(std::size_t seeds, const io::OutputFolder& folder, ex
         modulus[rule] += one[row][rule].youngs_modulus / static_cast<double>(seeds);
         ratio[rule] += one[row][rule].poisson_ratio / static_cast<double>(seeds);
       }
+    warn_of(table[row].poisson_ratio);
     csv.row({table[row].poisson_ratio, modulus[0], ratio[0], modulus[1], ratio[1]});
     const std::string label = "B9, nu = " + to_text(table[row].poisson_ratio) + ", ";
     result.error(label + "by number: E/E_th from " + to_text(table[row].modulus_by_number), modulus[0] - table[row].modulus_by_number, 0.03,
@@ -366,6 +373,7 @@ void pressed_cubes(int cells, const io::OutputFolder& folder, example::Result& r
                                                  {"together", "k0 a0"},
                                                  {"energy", "k0 a0^2"}});
   for (const double nu : {0.49, 0.25, 0.0, -0.99}) {
+    warn_of(nu);
     const Springs all = springs_for(body, ElasticConstants<3>::from_young(1.0, nu));
     const SmallStrain<3> springs(body, all);
     std::vector<Vector<3>> u;
