@@ -58,7 +58,7 @@ Found compress(const lattice_spring::Body<3>& body, const Case& of, example::Res
       bonds<Beads, Beads>(bond::Harmonic{.stiffness = of.shell * hard}, bonded.shell), forced_by<Beads>(below, above));
   std::uint64_t evaluations = 0;
   const auto curve =
-      example::press(scene, below, above,
+      example::press(scene, body, below, above,
                      {.approach = 2.0 * radius * squeezed,
                       .largest_step = 0.3 * std::cbrt(body.points.volume),
                       .force_tolerance = 1e-5 * hard * std::cbrt(body.points.volume) * std::max(std::min(of.core, of.shell), 0.01)},
