@@ -29,6 +29,7 @@ from processes import Failure, draw, execute, new_parser, put_table, require_gnu
 BALLS = (8, 12, 16, 24, 32)    # R/l
 CUBES = (6, 8, 10, 14)        # edges [a0]
 VARIANTS = ("k const", "kL const", "kL-tune", "ikL-tune")
+TUNING_BOUNDS = {"kL-tune": 2, "ikL-tune": 10}  # of 57,000 springs, one thread [s]
 PRESSURE = 3 * 100 * 0.01 / 1.01**2  # Cauchy stress of a cube with K = 100, expanded by 1 % [k0/a0]
 
 
@@ -62,8 +63,9 @@ def balls(program, folder):
 
 
 def networks(program, folder):
-    """B4 to B7: the mean of seeds."""
+    """B4 to B7: the mean of seeds; and what tuning takes (B12)."""
     curves = {variant: [] for variant in VARIANTS}
+    tunings = []
     for edge in CUBES:
         execute([program, "--resolution", str(edge), "--threads", "1", "--output", folder], statuses=(0, 1))
         with open(Path(folder) / f"cube_{edge}.csv") as file:
@@ -76,7 +78,15 @@ def networks(program, folder):
             seconds = mean(lambda row: float(row["processor [s]"]))
             curves[variant].append(Point(variant, edge, int(seeds[0]["beads [-]"]), error, scatter, seconds))
             print(f"{variant}, edge {edge} a0: error {error:.3g}, {seconds:.3g} s", file=sys.stderr)
-    return [with_order(points) for points in curves.values()]
+            if variant.endswith("-tune"):
+                tuning, rest = (mean(lambda row: float(row[name])) for name in ("tuning [s]", "state of rest [s]"))
+                solves, iterations = (mean(lambda row: float(row[f"tuning {name} [-]"])) for name in ("solves", "iterations"))
+                bound = f"{TUNING_BOUNDS[variant]} s" if edge == 10 else ""
+                tunings.append(f"| {variant} | {seeds[0]['springs [-]']} | {solves:.0f} | {iterations / solves:.0f} | {tuning / rest:.1f} | "
+                               f"{tuning:.2g} s | {bound} |")
+    lines = ["| variant | springs | solves | iterations of each | states of rest that take as long | run time | specified (B12) |",
+             "|---|---|---|---|---|---|---|", *sorted(tunings, reverse=True, key=lambda line: line.startswith("| kL"))]
+    return [with_order(points) for points in curves.values()], "\n".join(lines)
 
 
 def limits(program):
@@ -164,9 +174,10 @@ def write(options):
     put_table(page, "limits", limits(options.bond_limits))
     with tempfile.TemporaryDirectory() as folder:
         ball = balls(options.elastic_sphere, folder)
-        nets = networks(options.amorphous_solid, folder)
+        nets, tunings = networks(options.amorphous_solid, folder)
     put_table(page, "ball", ball_table(ball))
     put_table(page, "networks", network_table(nets))
+    put_table(page, "tuning", tunings)
     write_csv([ball, *nets], options.docs / "bonded-solids.csv")
     draw_errors(ball, nets, options.docs / "bonded-solids.png")
 

@@ -51,7 +51,6 @@ struct Found {
   lattice_spring::HertzFit fit;
   double depth_per_contact;  // of the largest shear stress on the axis, in contact radii
   double shear;              // there, as a fraction of Hertz' peak pressure
-  std::size_t folded;
   double modulus_over_affine;  // E/E14 of a network
 };
 
@@ -98,22 +97,27 @@ Found compress(const lattice_spring::Body<3>& body, const Plate& below, const Pl
                                                                  {"difference of the plates", "-"},
                                                                  {"contact radius", "m"},
                                                                  {"penetration", "m"},
-                                                                 {"touching", "-"}});
+                                                                 {"touching", "-"},
+                                                                 {"halvings", "-"},
+                                                                 {"folded", "-"}});
   Found found{};
   std::uint64_t evaluations = 0;
   // steps that hit all the points of the fit, and are not larger than 0.3 spacings
   const int steps = 8 * static_cast<int>(std::ceil(deepest * 2.0 * radius / (8.0 * 0.3 * setup.spacing)));
-  found.curve = example::press(scene, below, above,
+  found.curve = example::press(scene, body, below, above,
                                {.approach = 2.0 * radius * deepest,
                                 .largest_step = 2.0 * radius * deepest / steps,
                                 .force_tolerance = 1e-5 * stiffness * setup.spacing},
                                evaluations, [&](const example::Pressed& now) {
                                  table.row({now.approach / (2.0 * radius), now.force, now.difference, now.contact_radius, now.penetration,
-                                            static_cast<double>(now.touching)});
+                                            static_cast<double>(now.touching), static_cast<double>(now.halvings),
+                                            static_cast<double>(now.folded)});
                                });
   std::vector<double> approach, force;  // 8 points, to 10 %
   double difference = 0.0;
+  std::size_t halvings = 0;
   for (std::size_t n = 0; n < found.curve.size(); ++n) {
+    halvings += found.curve[n].halvings;
     difference = std::max(difference, std::fabs(found.curve[n].difference));
     if ((n + 1) % (found.curve.size() / 8) != 0) continue;
     approach.push_back(found.curve[n].approach);
@@ -130,7 +134,6 @@ Found compress(const lattice_spring::Body<3>& body, const Plate& below, const Pl
     shear.push_back(lattice_spring::largest_shear_stress<3>(one));
     all.insert(all.end(), one.data(), one.data() + 9);
   }
-  found.folded = lattice_spring::folded_beads<3>(body.bonds, body.points.positions, now).size();
   look_below(now, shear, setup, -0.5 * (below.position + above.position) - 0.5 * found.curve.back().approach, found);
   io::write_vtp(folder / ("stress_" + setup.name + ".vtp"),
                 io::PointCloud<3>{.positions = now,
@@ -142,9 +145,10 @@ Found compress(const lattice_spring::Body<3>& body, const Plate& below, const Pl
   result.particle_steps += static_cast<double>(evaluations) * static_cast<double>(now.size());
   result.describe(scene);
   result.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("%-14s %7zu beads, %5.0f evaluations per state of rest, %zu beads folded, zero of delta %+.2f spacings, shear %.3f p0\n",
-              setup.name.c_str(), now.size(), static_cast<double>(evaluations) / static_cast<double>(found.curve.size()), found.folded,
-              found.fit.zero / setup.spacing, found.shear);
+  std::printf("%-14s %7zu beads, %5.0f evaluations per state of rest, %zu steps halved, %zu beads folded, zero of delta %+.2f spacings, "
+              "shear %.3f p0\n",
+              setup.name.c_str(), now.size(), static_cast<double>(evaluations) / static_cast<double>(found.curve.size()), halvings,
+              found.curve.back().folded, found.fit.zero / setup.spacing, found.shear);
   std::fflush(stdout);
   return found;
 }

@@ -52,6 +52,8 @@ struct Pressed {
   double contact_radius;  // mean of both [m]
   double penetration;     // sqrt(force per bead/S), of one plate: by so much the beads approach less [m]; 0 of contact planes
   std::size_t touching;   // beads, both plates
+  std::size_t halvings;   // of the step to this state, to keep layers from folding
+  std::size_t folded;     // beads, in spite of that
 };
 
 struct PressOptions {
@@ -60,18 +62,27 @@ struct PressOptions {
   double force_tolerance;  ///< [N]
 };
 
-/// Presses a scene of Beads between its plates in equal steps, from one state of rest to the next; looked_at(pressed) after each.
+/// Presses a scene of Beads, this body, between its plates in equal steps, halved where layers would fold, from one state of rest to the
+/// next; looked_at(pressed) after each.
 template <class Scene, class Plate, class Look>
-std::vector<Pressed> press(Scene& scene, const Plate& below, const Plate& above, const PressOptions& options, std::uint64_t& evaluations,
-                           const Look& looked_at) {
+std::vector<Pressed> press(Scene& scene, const dmp::lattice_spring::Body<3>& body, const Plate& below, const Plate& above,
+                           const PressOptions& options, std::uint64_t& evaluations, const Look& looked_at) {
   std::vector<Pressed> curve;
   const int steps = static_cast<int>(std::ceil(options.approach / options.largest_step - 1e-9));
   const double height = -below.position - above.position, step = options.approach / steps;
+  auto& x = scene.template group<Beads>().positions();
   for (int n = 1; n <= steps; ++n) {
     const double approach = n * step;
-    for (auto& x : scene.template group<Beads>().positions()) x[2] *= (height - approach) / (height - approach + step);  // a first guess
-    const auto report =
-        dmp::simulation::relax(scene, {.force_tolerance = options.force_tolerance, .time = approach, .without_rotation = true});
+    const auto report = dmp::simulation::relax_in_steps(
+        scene,
+        {.until = approach,
+         .largest_step = step,
+         .from = (n - 1) * step,
+         .relax = {.force_tolerance = options.force_tolerance, .without_rotation = true}},
+        [&] { return dmp::lattice_spring::folded_beads<3>(body.bonds, body.points.positions, x).size(); },
+        [&](double from, double to) {
+          for (auto& at : x) at[2] *= (height - to) / (height - from);
+        });
     evaluations += report.evaluations;
     const auto low = dmp::simulation::load_on<Beads>(scene, below, approach),
                high = dmp::simulation::load_on<Beads>(scene, above, approach);
@@ -83,7 +94,9 @@ std::vector<Pressed> press(Scene& scene, const Plate& below, const Plate& above,
                      .difference = (low.force[2] + high.force[2]) / force,
                      .contact_radius = 0.5 * (low.radius + high.radius),
                      .penetration = is_penalty ? std::sqrt(2.0 * force / (static_cast<double>(touching) * plate_strength)) : 0.0,
-                     .touching = touching});
+                     .touching = touching,
+                     .halvings = report.halvings,
+                     .folded = report.folded});
     looked_at(curve.back());
   }
   return curve;

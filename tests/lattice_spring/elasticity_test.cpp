@@ -167,6 +167,28 @@ TEST_CASE("B1: constants of no stable body are told by name and value") {
         "lattice_spring::stiffness_for: youngs_modulus must be finite and > 0 Pa, got -1");
 }
 
+TEST_CASE("section 6 of sheet 04: nu outside [-0.95, 0.48] is warned about, however it was asked for; in 2D where Q is the same") {
+  for (const double nu : {-0.95, -0.5, 0.0, 0.25, 0.48}) CHECK(ElasticConstants<3>::from_young(1.0, nu).warning().empty());
+  CHECK(ElasticConstants<3>::from_young(1.0, 0.49).warning() ==
+        "lattice_spring::ElasticConstants: poisson_ratio 0.49 lies outside -0.95 to 0.48: nearly incompressible; solvers take many steps, "
+        "and undamped motion by Dispersion::by_number may grow");
+  CHECK(ElasticConstants<3>::from_young(1.0, -0.99).warning().starts_with(
+      "lattice_spring::ElasticConstants: poisson_ratio -0.99 lies outside -0.95 to 0.48: hardly resists compression"));
+  for (const double nu : {-0.951, 0.481}) {
+    const auto c = ElasticConstants<3>::from_young(1.0, nu);
+    CHECK_FALSE(c.warning().empty());
+    CHECK_FALSE(ElasticConstants<3>::from_lame(c.first_lame_parameter, c.shear_modulus).warning().empty());
+    CHECK_FALSE(ElasticConstants<3>::from_springs(c.spring_modulus, c.dispersive_share).warning().empty());
+  }
+  const auto Q = [](auto constants) { return constants.dispersion_ratio; };
+  using Solid = ElasticConstants<3>;
+  using Sheet = ElasticConstants<2>;
+  CHECK(Q(Sheet::from_young(1.0, Sheet::least_advised)) == doctest::Approx(Q(Solid::from_young(1.0, Solid::least_advised))).epsilon(1e-3));
+  CHECK(Q(Sheet::from_young(1.0, Sheet::most_advised)) == doctest::Approx(Q(Solid::from_young(1.0, Solid::most_advised))).epsilon(1e-2));
+  CHECK(Sheet::from_young(1.0, 0.5).warning().empty());
+  CHECK_FALSE(Sheet::from_young(1.0, 0.94).warning().empty());
+}
+
 TEST_CASE("A5, section 2 of sheet 04: stiffness of the lattices from Young's modulus, and back") {
   const CubicLattice cubic{.spacing = 12.5e-6};
   CHECK(stiffness_for(cubic, 40e6) == doctest::Approx(200.0).epsilon(1e-14));  // the sphere of sheet 01

@@ -114,6 +114,31 @@ TEST_CASE("B6 on a cube of 5 a0: kL-tune keeps points, limits and the interior's
   CHECK(moved(strained) < 0.05 * moved(untuned));
 }
 
+TEST_CASE("B12, counted: solves and alternations do not grow with the network, iterations of a solve more slowly than the beads across it") {
+  struct Work {
+    double across;  // a0, of the inner beads
+    TuningReport balance;
+    StressTuningReport stress;
+  };
+  const auto work = [](double edge) {
+    const Cube cube{edge};
+    auto body = cube.body(), other = body;
+    return Work{edge - 2.0 * reach, tune_balance(body, cube.shape(), reach), tune_stress(other, cube.shape(), reach)};
+  };
+  const Work small = work(5.0), large = work(8.0);
+  const auto each = [](const TuningReport& report) { return static_cast<double>(report.iterations) / static_cast<double>(report.solves); };
+  for (const Work& one : {small, large}) {
+    CHECK(one.balance.solves == one.balance.steps);
+    CHECK(one.balance.solves <= 25);  // 5 to 25, and 90 iterations of each for twice the springs of the large one
+    CHECK(each(one.balance) <= 90.0);
+    CHECK(one.stress.steps <= 300);
+    CHECK(one.stress.solves <= one.stress.steps + 25);
+    CHECK(each(one.stress) <= each(one.balance));  // from one alternation to the next little is left to solve for
+  }
+  CHECK(each(large.balance) <= each(small.balance) * large.across / small.across);
+  CHECK(each(large.stress) <= each(small.stress) * large.across / small.across);
+}
+
 TEST_CASE("B7 on a cube of 6 a0: ikL-tune makes the stress of inner beads even besides, within the same limits") {
   const Cube cube{6.0};
   const auto before = cube.body(2);

@@ -2,6 +2,7 @@
 // of a wall is computed here from U = 4 eps [(sigma/r)^12 - (sigma/r)^6]; eps, sigma and the mass are 1.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 #include <doctest/doctest.h>
@@ -213,4 +214,87 @@ TEST_CASE("a run that is followed by another one, in which a bead is much faster
   scene.group<Shot>().get<field::Velocity>()[0] = {0.0, 0.0, 1e3};
   scene.run({.until = scene.time() + 0.01});
   CHECK(scene.group<Shot>().get<field::Velocity>()[0][2] == doctest::Approx(-1e3).epsilon(2e-3));
+}
+
+TEST_CASE("two beads with an attractive well meet head-on and hand over their velocities, slower and faster than what the well gives them") {
+  for (const double range : {2.5, 4.0})
+    for (const double speed : {0.3, 0.5, 1.0, 2.0, 5.0, 50.0, 1500.0})  // the well gives 2 m/s
+      for (const double start : phases) {
+        CAPTURE(range);
+        CAPTURE(speed);
+        CAPTURE(start);
+        auto pair = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(start - 2.0)}}, 1.0),
+                                    group<Target>("other", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0),
+                                    interaction<Shot, Target>(potential::LennardJones{.energy_scale = 1.0, .diameter = 1.0, .cutoff = range}));
+        pair.group<Shot>().get<field::Velocity>()[0] = Vector<1>(speed);
+        pair.run({.until = 14.0 / speed});
+        const double v = pair.group<Shot>().get<field::Velocity>()[0][0], w = pair.group<Target>().get<field::Velocity>()[0][0];
+        CHECK(v + w == doctest::Approx(speed).epsilon(1e-12));
+        const double energy = 0.25 * speed * speed;  // of the relative motion, which gains 1 in the well
+        CHECK(std::fabs(0.25 * (w - v) * (w - v) - energy) < 0.02 * (energy + 1.0));  // the speed to 1 %, where it is largest
+        CHECK(w > v);
+      }
+}
+
+TEST_CASE("two beads that are bound in their well keep their energy over many encounters, near its bottom and near its rim") {
+  for (const double apart : {1.0, 1.2, 1.5, 2.0}) {
+    CAPTURE(apart);
+    const potential::LennardJones law{.energy_scale = 1.0, .diameter = 1.0, .cutoff = 4.0};
+    auto pair = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(-apart)}}, 1.0),
+                                group<Target>("other", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0), interaction<Shot, Target>(law));
+    const double start = law.energy(apart * apart);
+    std::vector<double> error;
+    for (int n = 1; n <= 400; ++n) {
+      pair.run({.until = 0.25 * n});
+      const double r = pair.group<Target>().positions()[0][0] - pair.group<Shot>().positions()[0][0];
+      const double v = pair.group<Shot>().get<field::Velocity>()[0][0], w = pair.group<Target>().get<field::Velocity>()[0][0];
+      CHECK(std::fabs(v + w) < 1e-12);
+      error.push_back(0.5 * (v * v + w * w) + law.energy(r * r) - start);
+    }
+    const double most = std::fabs(*std::max_element(error.begin(), error.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
+    const double drift = (std::accumulate(error.end() - 100, error.end(), 0.0) - std::accumulate(error.begin(), error.begin() + 100, 0.0)) / 100.0;
+    CHECK(most < square(0.9 * 2.0 / std::sqrt(6.0)) / 8.0);  // what leapfrog's energy oscillates by, (omega dt)^2/8
+    CHECK(std::fabs(drift) < 0.01);
+  }
+}
+
+namespace {
+
+/// A hard core inside of a hill: three distances at which the force is 0. U = 4 eps [(s/r)^12 - (s/r)^6] + eps below 2^(1/6) s, and
+/// B (1 - ((r - 1)/w)^2)^3 within w of r = 1.
+struct Caged {
+  double core = 0.4, barrier = 50.0, half_width = 0.3, cutoff = 2.0;  // B, w
+  template <class T>
+  T force_factor(const T& squared) const {
+    const T r = sqrt(squared), y = (r - 1.0) * (1.0 / half_width), rest = max(1.0 - y * y, 0.0);
+    const T s6 = cube(core * core / squared);
+    return select(squared < core_range(), 24.0 / squared * s6 * (2.0 * s6 - 1.0), 0.0) + (6.0 * barrier / half_width) * y * square(rest) / r;
+  }
+  template <class T>
+  T energy(const T& squared) const {
+    const T y = (sqrt(squared) - 1.0) * (1.0 / half_width), rest = max(1.0 - y * y, 0.0), s6 = cube(core * core / squared);
+    return select(squared < core_range(), 4.0 * s6 * (s6 - 1.0) + 1.0, 0.0) + barrier * cube(rest);
+  }
+  double largest_stiffness() const { return std::max(456.0 / (core * core), 6.0 * barrier / (half_width * half_width)); }  // at r = s; of the hill
+
+ private:
+  double core_range() const { return core * core * std::cbrt(2.0); }
+};
+void validate(const Caged&) {}
+
+}  // namespace
+
+TEST_CASE("a bead between a hard core and a hill, two places where a force ends, bounces to and fro and keeps its energy at any speed below the hill") {
+  const Caged law;
+  for (const double speed : {1.0, 4.0, 9.0, 9.9}) {
+    CAPTURE(speed);
+    auto cage = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(-0.6)}}, 1.0),
+                                group<Target>("core", Frozen<1>{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0), interaction<Shot, Target>(law));
+    cage.group<Shot>().get<field::Velocity>()[0] = Vector<1>(speed);
+    for (int n = 1; n <= 20; ++n) {
+      cage.run({.until = 0.5 * n / speed});
+      const double r = cage.group<Shot>().positions()[0][0], v = cage.group<Shot>().get<field::Velocity>()[0][0];
+      CHECK(0.5 * v * v + law.energy(r * r) == doctest::Approx(0.5 * speed * speed).epsilon(0.07));  // leapfrog's oscillates
+    }
+  }
 }

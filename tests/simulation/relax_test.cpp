@@ -41,6 +41,10 @@ std::vector<Bond> chain(std::uint32_t count) {
 }
 constexpr double mass = 0.02, k = 30.0, gravity = 9.81;
 
+struct Growing {  // weight that grows in proportion to time
+  [[nodiscard]] Components<1, double> acceleration(const forcing::Subject<1>& subject) const noexcept { return {gravity * subject.time}; }
+};
+
 }  // namespace
 
 TEST_CASE("a chain that hangs from a frozen bead has the exact sag of a chain of springs, with any integrator") {
@@ -65,6 +69,67 @@ TEST_CASE("a chain that hangs from a frozen bead has the exact sag of a chain of
   };
   check(Leapfrog{});
   check(ExtrapolatedVerlet{});
+}
+
+TEST_CASE("steps that fold too much are taken back and halved, and go on from where the last one ended; what folds anyway is kept") {
+  constexpr int count = 5;
+  auto hanging =
+      scene<Leapfrog>(Box<1>::unbounded(), group<Ends>("hook", Frozen<1>{}, Points<1>{{Vector<1>(-0.1)}}, mass),
+                      group<Beads>("beads", Mobile{}, row(count), mass), bonds<Beads, Beads>(Harmonic{.stiffness = k}, chain(count)),
+                      bonds<Ends, Beads>(Harmonic{.stiffness = k}, {{0, 0}}),
+                      forced_by<Beads>(Growing{}));
+  const auto lowest = [&] { return hanging.group<Beads>().positions()[count - 1][0]; };
+  struct Step {
+    double from, to, start;
+  };
+  std::vector<Step> tried;
+  double longest = 0.3;  // of the steps that do not fold
+  std::size_t for_good = 0;
+  const auto folded = [&]() -> std::size_t { return for_good + (!tried.empty() && tried.back().to - tried.back().from > longest ? 1 : 0); };
+  const auto guess = [&](double from, double to) { tried.push_back({from, to, lowest()}); };
+  const StepsOptions options{.until = 2.0, .largest_step = 1.0, .relax = {.force_tolerance = 1e-12}};
+  const auto report = relax_in_steps(hanging, options, folded, guess);
+  const std::vector<std::pair<double, double>> expected{{0.0, 1.0}, {0.0, 0.5}, {0.0, 0.25}, {0.25, 0.5}, {0.5, 1.0}, {0.5, 0.75},
+                                                        {0.75, 1.0}, {1.0, 2.0}, {1.0, 1.5}, {1.0, 1.25}, {1.25, 1.5}, {1.5, 2.0},
+                                                        {1.5, 1.75}, {1.75, 2.0}};
+  REQUIRE(tried.size() == expected.size());
+  const auto sag = [](double time) { return 0.1 * (count - 1) + 0.5 * count * (count + 1) * mass * gravity * time / k; };
+  for (std::size_t n = 0; n < tried.size(); ++n) {
+    CHECK(tried[n].from == expected[n].first);
+    CHECK(tried[n].to == expected[n].second);
+    CHECK(tried[n].start == doctest::Approx(sag(tried[n].from)).epsilon(1e-9));
+  }
+  CHECK(lowest() == doctest::Approx(sag(2.0)).epsilon(1e-9));
+  CHECK((report.steps == 8 && report.halvings == 6 && report.folded == 0));
+
+  tried.clear();
+  longest = 0.0;  // all of them fold
+  StepsOptions once = options;
+  once.from = 2.0, once.until = 3.0, once.most_halvings = 2;
+  const auto given_way = relax_in_steps(hanging, once, folded, guess);
+  CHECK((given_way.steps == 3 && given_way.folded == 1));  // 2 to 2.25, 2.5, 3: nothing more folds after the first
+  CHECK(given_way.halvings == 2);
+  CHECK(lowest() == doctest::Approx(sag(3.0)).epsilon(1e-9));
+}
+
+TEST_CASE("steps that lead nowhere are refused") {
+  auto bead = scene<Leapfrog>(Box<1>::unbounded(), group<Beads>("beads", Mobile{}, row(2), mass),
+                              bonds<Beads, Beads>(Harmonic{.stiffness = k}, chain(2)));
+  const auto complaint = [&](const StepsOptions& options) {
+    try {
+      relax_in_steps(bead, options, [] { return std::size_t{0}; });
+    } catch (const ParameterError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const RelaxOptions rest{.force_tolerance = 1e-9};
+  CHECK(complaint({.until = 1.0, .largest_step = 1.0, .from = 1.0, .relax = rest}) ==
+        "relax_in_steps: until must be finite and > from [s], got 1");
+  CHECK(complaint({.until = 1.0, .largest_step = 0.0, .relax = rest}) == "relax_in_steps: largest_step must be finite and > 0 s, got 0");
+  CHECK(complaint({.until = 1.0, .largest_step = 1.0, .from = -1.0, .relax = rest}).starts_with("relax_in_steps: from must be"));
+  CHECK(complaint({.until = 1.0, .largest_step = 1.0, .most_halvings = -1, .relax = rest}) ==
+        "relax_in_steps: most_halvings must be >= 0, got -1");
 }
 
 namespace {

@@ -12,7 +12,7 @@ template <int Dim>
 struct ElasticConstants {
   static_assert(Dim == 2 || Dim == 3, "dmp: elastic constants exist in 2 and 3 dimensions");
   double youngs_modulus;        ///< E = 2 mu (N lambda + 2 mu)/((N - 1) lambda + 2 mu), > 0
-  double poisson_ratio;         ///< nu, -1 < nu < 1/(N - 1)
+  double poisson_ratio;         ///< nu, -1 < nu < 1/(N - 1); near either end see warning()
   double shear_modulus;         ///< mu
   double first_lame_parameter;  ///< lambda
   double bulk_modulus;          ///< K = lambda + 2 mu/N
@@ -22,6 +22,18 @@ struct ElasticConstants {
 
   /// nu of N = 3 below 1/2, of N = 2 below 1: beyond, the body would not resist compression.
   static constexpr double largest_poisson_ratio = 1.0 / (Dim - 1);
+  /// nu outside of these is possible, and warned about. In 2D they have the Q of those of 3D, -0.993 and 13.8.
+  static constexpr double least_advised = Dim == 3 ? -0.95 : -0.973, most_advised = Dim == 3 ? 0.48 : 0.935;
+
+  /// What to expect of springs with such a nu, for the user to read; empty for advised ones. Nothing is printed.
+  [[nodiscard]] std::string warning() const {
+    if (poisson_ratio >= least_advised && poisson_ratio <= most_advised) return {};
+    return "lattice_spring::ElasticConstants: poisson_ratio " + to_text(poisson_ratio) + " lies outside " + to_text(least_advised) +
+           " to " + to_text(most_advised) +
+           (poisson_ratio > 0.0 ? ": nearly incompressible; solvers take many steps, and undamped motion by Dispersion::by_number may grow"
+                                : ": hardly resists compression; direct and dispersive forces nearly cancel, and solvers may stall without "
+                                  "supports or Springs::added_share");
+  }
 
   /// From lambda > -2 mu/N and mu > 0 [Pa].
   [[nodiscard]] static ElasticConstants from_lame(double first_lame_parameter, double shear_modulus) {

@@ -33,7 +33,8 @@ inline void validate(const Springs& springs) {
 }
 
 /// The springs that give a body these constants while it follows a uniform strain: (1 + 2/N) C = (1/(N^2 V)) sum of k L^2, over the whole
-/// body, or over the bonds with midpoints in `inside`, of this volume [m^Dim]. M. Kot, eq. 15.
+/// body, or over the bonds with midpoints in `inside`, of this volume [m^Dim]. constants.warning() tells of a nu that is hard to work with.
+/// M. Kot, eq. 15.
 template <int Dim>
 [[nodiscard]] Springs springs_for(const Body<Dim>& body, const ElasticConstants<Dim>& constants,
                                   Dispersion dispersion = Dispersion::energy_consistent) {

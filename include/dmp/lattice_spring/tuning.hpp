@@ -42,6 +42,7 @@ enum class TuningEnd { nothing_to_do, balanced, stagnated, most_steps };
 struct TuningReport {
   TuningEnd end = TuningEnd::nothing_to_do;
   std::size_t steps = 0;
+  std::size_t solves = 0, iterations = 0;              ///< of K u = f, and of conjugate gradients in them: each one pass over all bonds
   double imbalance_before = 0.0, imbalance = 0.0;      ///< S_kL of the inner beads
   double smallest_factor = 1.0, largest_factor = 1.0;  ///< of weights, with the common factor of the interior
 };
@@ -110,10 +111,12 @@ class Balance {
       force[bond.i] += bond.weight * apart_[b];
       force[bond.j] -= bond.weight * apart_[b];
     }
-    const auto u = equilibrium<Dim>(SmallStrain<Dim>(*body_, {.stiffness = 1.0}), supports_,
-                                    std::vector<Vector<Dim>>(inner_.size(), Vector<Dim>::Zero()), force,
-                                    {.tolerance = tolerance, .mechanisms = Mechanisms::leave})
-                       .displacements;
+    const auto found = equilibrium<Dim>(SmallStrain<Dim>(*body_, {.stiffness = 1.0}), supports_,
+                                        std::vector<Vector<Dim>>(inner_.size(), Vector<Dim>::Zero()), force,
+                                        {.tolerance = tolerance, .mechanisms = Mechanisms::leave});
+    ++solves_;
+    iterations_ += found.iterations;
+    const auto& u = found.displacements;
     double largest = 0.0;
     for (std::size_t b = 0; b < apart_.size(); ++b) {
       const neighbours::Bond& bond = body_->bonds[b];
@@ -144,6 +147,8 @@ class Balance {
       report.largest_factor = std::max(report.largest_factor, weight / original_[b]);
     }
     report.imbalance = imbalance();
+    report.solves = solves_;
+    report.iterations = iterations_;
   }
 
  private:
@@ -153,7 +158,7 @@ class Balance {
   std::vector<std::uint8_t> inner_, middle_;
   std::vector<double> original_, squared_;
   std::vector<Vector<Dim>> apart_;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, solves_ = 0, iterations_ = 0;
   double level_ = 0.0;
 };
 

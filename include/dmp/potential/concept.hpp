@@ -8,7 +8,9 @@ namespace dmp::potential {
 ///   force_factor(r^2)    f [N/m]: force on i = f r_ij, > 0 repels; 0 beyond the cut-off
 ///   energy(r^2)          U [J], 0 beyond the cut-off
 ///   cutoff               [m]
-///   largest_stiffness()  [N/m], U'' at the closest approach that the law is meant for: for the time step
+///   largest_stiffness()  [N/m], for the time step: U'' is at most this from the closest approach that the law is meant for out to the
+///                        cut-off, over all wells and hills. Nearer, where only fast particles come, U rises inwards (a core) or ends (a
+///                        hill): there the scene finds U'' itself. It may miss what is narrower than 1/64 of the cut-off
 template <class P>
 concept PairPotential = std::is_trivially_copyable_v<P> && requires(const P law, double x) {
   { law.force_factor(x) } -> std::same_as<double>;

@@ -54,10 +54,14 @@ consteval bool explain_pair_law() {
 
 namespace detail {
 
-/// Where holds(r), true below and false above, ends between 0 and `most` [m].
+/// Where holds(r), true near 0, ends for the first time between 0 and `most` [m]; it may hold again farther out. What ends and begins again
+/// within most/64 is not seen.
 template <class Holds>
-[[nodiscard]] double last_distance(double most, const Holds& holds) {
+[[nodiscard]] double first_end(double most, const Holds& holds) {
+  const double part = most / 64.0;
   double least = 0.0;
+  while (least + part < most && holds(least + part)) least += part;
+  most = std::min(most, least + part);
   for (int n = 0; n < 60; ++n) {
     const double middle = 0.5 * (least + most);
     (holds(middle) ? least : most) = middle;
@@ -90,16 +94,18 @@ struct PotentialForce {
   }
 
   /// The step [s] that resolves the worst collision of two particles of this reduced mass [kg], relative speed [m/s] and acceleration
-  /// [m/s^2]: omega dt <= 1 where they turn back, omega^2 = U''/mass, which keeps the speed of a head-on collision to 1 %; and, should the
-  /// potential not turn them back, a quarter of the cut-off. Their energy is m v^2/2 + U where the force is m a, so that the step stays
-  /// about the same throughout the collision of two alone; it is chosen anew in every step, since others accelerate them too. Particles
-  /// squeezed from all sides have no acceleration: that is what largest_stiffness is stated for.
+  /// [m/s^2]: omega dt <= 1 where they turn back, omega^2 = U''/mass, which keeps the speed of a head-on collision to 1 %, of what it is at
+  /// most if they attract each other first; and, should the potential not turn them back, a quarter of the cut-off. They are taken to turn
+  /// back where U first falls below their energy, counted from the inside: at the core. Wells, hills and shoulders farther out are resolved
+  /// since stability asks for more, as long as largest_stiffness bounds U'' there. Their energy is m v^2/2 + U where the force is m a, so
+  /// that the step stays about the same throughout the collision of two alone; it is chosen anew in every step, since others accelerate them
+  /// too. Particles squeezed from all sides have no acceleration: that is what largest_stiffness is stated for.
   [[nodiscard]] double collision_step(double mass, double speed, double acceleration) const {
     const auto force = [this](double r) { return r * potential.force_factor(r * r); };
     const auto energy = [this](double r) { return potential.energy(r * r); };
-    const double now = detail::last_distance(cutoff(), [&](double r) { return !(force(r) < mass * acceleration); });
+    const double now = detail::first_end(cutoff(), [&](double r) { return !(force(r) < mass * acceleration); });
     const double available = 0.5 * mass * speed * speed + std::max(0.0, energy(now));
-    const double closest = detail::last_distance(cutoff(), [&](double r) { return !(energy(r) < available); });
+    const double closest = detail::first_end(cutoff(), [&](double r) { return !(energy(r) < available); });
     const double crossing = 0.25 * cutoff() / speed, nearby = 0.999 * closest;
     const double stiffness = (force(nearby) - force(closest)) / (closest - nearby);
     return stiffness > 0.0 ? std::min(crossing, std::sqrt(mass / stiffness)) : crossing;
