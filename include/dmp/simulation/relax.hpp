@@ -143,7 +143,8 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
   constexpr bool has_contacts = (is_confined<Item> || ...);
   constexpr double first_mixing = 0.1, mixing_decay = 0.99, growth = 1.1, shrinkage = 0.5, safety = 0.9;
   constexpr int patience = 5;               // steps downhill before the step grows
-  constexpr std::uint64_t look_every = 20;  // evaluations after which bounds of the step are looked at again
+  constexpr std::uint64_t look_every = 20;  // evaluations after which bounds of the step are looked at again ...
+  constexpr double look_at = 1.5;           // ... or factor by which the largest force has grown: planes and potentials stiffen with it
   auto& engine = scene.engine();
   (void)scene.step_limit();  // checks the scene, and evaluates it
   const double time = options.time >= 0.0 ? options.time : scene.time();
@@ -209,7 +210,7 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
     return look();
   };
   Sums now = look_from_rest();
-  double longest = longest_step(), dt = 0.25 * longest, mixing = first_mixing;
+  double longest = longest_step(), dt = 0.25 * longest, mixing = first_mixing, force_then = std::sqrt(now.largest);
   int downhill = 0;
   for (bool moving = false;;) {
     report.largest_force = std::sqrt(now.largest);
@@ -222,7 +223,8 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
     if (!now.finite || report.evaluations >= options.most_evaluations)
       throw SimulationError("relax: not at rest after " + std::to_string(report.evaluations) + " evaluations",
                             {time, scene.step(), "", -1, "largest force [N]", report.largest_force});
-    if (report.evaluations % look_every == 0) {
+    if (report.evaluations % look_every == 0 || report.largest_force > look_at * force_then) {
+      force_then = report.largest_force;
       longest = longest_step();
       dt = std::fmin(dt, longest);
     }
