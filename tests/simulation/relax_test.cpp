@@ -257,6 +257,22 @@ TEST_CASE("relax: bonds, a potential and planes on two groups; the same bits for
   }
 }
 
+TEST_CASE("relax: a bead that a soft spring lets fall on a stiff plane comes to rest on it, though the plane is felt only when it is reached") {
+  for (const double strength : {1e4, 1e8, 1e12}) {
+    CAPTURE(strength);
+    auto pressed = scene<Leapfrog>(Box<1>::unbounded(), group<Ends>("hook", Frozen<1>{}, Points<1>{{Vector<1>(1.0)}}, mass),
+                                   group<Beads>("beads", Mobile{}, Points<1>{{Vector<1>(0.01)}}, mass),
+                                   bonds<Ends, Beads>(Harmonic{.stiffness = k}, {{0, 0, 0.99}}),
+                                   forced_by<Beads>(Plane<1>{.normal = {{1.0}}, .position = 0.0, .strength = strength},
+                                                    forcing::Constant<1>{.uniform_acceleration = {{-1e3 * gravity}}}));
+    const auto report = relax(pressed, {.force_tolerance = 1e-9, .most_evaluations = 10000});
+    CHECK(report.largest_force <= 1e-9);
+    const double depth = -pressed.group<Beads>().positions()[0][0];
+    CHECK(depth > 0.0);
+    CHECK(strength * depth * depth == doctest::Approx(1e3 * mass * gravity - k * (0.01 + depth)).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("relax: the energy goes down, and a body that is at rest stays as it is") {
   std::mt19937 random(3);
   auto body = lattice_spring::lattice_block(lattice_spring::CubicLattice{.spacing = 1.0}, {6, 6, 6});

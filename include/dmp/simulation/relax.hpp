@@ -225,7 +225,9 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
                             {time, scene.step(), "", -1, "largest force [N]", report.largest_force});
     if (report.evaluations % look_every == 0 || report.largest_force > look_at * force_then) {
       force_then = report.largest_force;
-      longest = longest_step();
+      const double bound = longest_step();
+      if (dt > bound / safety) stop();              // the last step was too long for what it met
+      longest = std::fmin(bound, look_at * longest);  // what is stiff and has just been left is met again
       dt = std::fmin(dt, longest);
     }
     if (!(longest < std::numeric_limits<double>::infinity()))
