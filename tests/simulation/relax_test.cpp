@@ -110,6 +110,14 @@ TEST_CASE("steps that fold too much are taken back and halved, and go on from wh
   CHECK((given_way.steps == 3 && given_way.folded == 1));  // 2 to 2.25, 2.5, 3: nothing more folds after the first
   CHECK(given_way.halvings == 2);
   CHECK(lowest() == doctest::Approx(sag(3.0)).epsilon(1e-9));
+
+  tried.clear();
+  longest = 1.0;
+  StepsOptions in_vain = once;  // no time to come to rest: the last state of rest is kept
+  in_vain.from = 3.0, in_vain.until = 4.0, in_vain.relax.most_evaluations = 3;
+  const double at_rest = lowest();
+  CHECK_THROWS_AS((void)relax_in_steps(hanging, in_vain, folded, guess), SimulationError);
+  CHECK(lowest() == at_rest);
 }
 
 TEST_CASE("steps that lead nowhere are refused") {

@@ -121,8 +121,8 @@ struct Rotation {
 /// Brings the mobile groups of a scene to rest in a minimum of their energy, by damped dynamics (FIRE): velocities are turned towards the
 /// forces while these do work, and set to zero when they do not. The clock of the scene stands still; velocities are zero afterwards, and
 /// accelerations those at `time`. For bonds, potentials, forcings of position, and contact planes: these bear what presses at them, and
-/// what is behind one is put on it first. What damps serves no purpose. The same bits for any number of threads. Throws SimulationError if it
-/// does not converge.
+/// what is behind one is put on it first. What damps serves no purpose. The same bits for any number of threads. Throws SimulationError if
+/// it does not converge.
 /// Takes a number of evaluations that grows as the square root of stiffest over softest: twice as many for twice the beads across.
 /// E. Bitzek, P. Koskinen, F. Gaehler, M. Moseler, P. Gumbsch, Phys. Rev. Lett. 97 (2006) 170201, doi:10.1103/PhysRevLett.97.170201.
 template <int Dim, class Integrator, class Precision, class... Item>
