@@ -431,7 +431,10 @@ TEST_CASE("contact planes refuse what they cannot do, and name it") {
   behind.group<Beads>().positions()[1][1] = 0.2;
   CHECK(complaint([&] { behind.run({.until = 1.0, .time_step = 0.1}); }) == "nothing");
   CHECK(complaint([&] { (void)load_on<Beads>(behind, ContactPlane<2>{.normal = {{0.0, -1.0}}, .position = 0.2}); }) ==
-        "load_on: a contact plane must be one of the scene's, with its position [m] and normal, got 0.2");
+        "load_on: a contact plane must be one of the scene's, with its normal, motion and position [m], got 0.2");
+  auto moving = floor_plane;
+  moving.motion.speed = 0.1;
+  CHECK_THROWS_AS((void)load_on<Beads>(behind, moving), ParameterError);
   auto across = on({.lower = {-1.0, -1.0}, .upper = {1.0, 1.0}, .periodic = {false, true}}, confined_by<Beads>(floor_plane));
   CHECK(complaint([&] { across.run({.until = 1.0, .time_step = 0.1}); }) ==
         "scene: a contact plane must lie along periodic directions, the component of its normal there be 0, got 1");

@@ -255,7 +255,6 @@ double exact_bound(const Scene& scene, const Dispersive& law, const std::vector<
   const auto& now = scene.template group<Beads>().positions();
   const auto size = static_cast<Eigen::Index>(3 * now.size());
   std::vector<Vector<3>> x(now.begin(), now.end());
-  Body<3> body{{x, 0.0, 0.0}, bonds};
   const auto forces = [&] {
     Eigen::VectorXd result = Eigen::VectorXd::Zero(size);
     const auto tension = tensions<3>(law, bonds, x);

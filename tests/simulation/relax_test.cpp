@@ -110,6 +110,14 @@ TEST_CASE("steps that fold too much are taken back and halved, and go on from wh
   CHECK((given_way.steps == 3 && given_way.folded == 1));  // 2 to 2.25, 2.5, 3: nothing more folds after the first
   CHECK(given_way.halvings == 2);
   CHECK(lowest() == doctest::Approx(sag(3.0)).epsilon(1e-9));
+
+  tried.clear();
+  longest = 1.0;
+  StepsOptions in_vain = once;  // no time to come to rest: the last state of rest is kept
+  in_vain.from = 3.0, in_vain.until = 4.0, in_vain.relax.most_evaluations = 3;
+  const double at_rest = lowest();
+  CHECK_THROWS_AS((void)relax_in_steps(hanging, in_vain, folded, guess), SimulationError);
+  CHECK(lowest() == at_rest);
 }
 
 TEST_CASE("steps that lead nowhere are refused") {
@@ -254,6 +262,22 @@ TEST_CASE("relax: bonds, a potential and planes on two groups; the same bits for
     }
     CHECK(report.evaluations == evaluations);
     CHECK(std::equal(first.begin(), first.end(), x.begin()));
+  }
+}
+
+TEST_CASE("relax: a bead that a soft spring lets fall on a stiff plane comes to rest on it, though the plane is felt only when it is reached") {
+  for (const double strength : {1e4, 1e8, 1e12}) {
+    CAPTURE(strength);
+    auto pressed = scene<Leapfrog>(Box<1>::unbounded(), group<Ends>("hook", Frozen<1>{}, Points<1>{{Vector<1>(1.0)}}, mass),
+                                   group<Beads>("beads", Mobile{}, Points<1>{{Vector<1>(0.01)}}, mass),
+                                   bonds<Ends, Beads>(Harmonic{.stiffness = k}, {{0, 0, 0.99}}),
+                                   forced_by<Beads>(Plane<1>{.normal = {{1.0}}, .position = 0.0, .strength = strength},
+                                                    forcing::Constant<1>{.uniform_acceleration = {{-1e3 * gravity}}}));
+    const auto report = relax(pressed, {.force_tolerance = 1e-9, .most_evaluations = 10000});
+    CHECK(report.largest_force <= 1e-9);
+    const double depth = -pressed.group<Beads>().positions()[0][0];
+    CHECK(depth > 0.0);
+    CHECK(strength * depth * depth == doctest::Approx(1e3 * mass * gravity - k * (0.01 + depth)).epsilon(1e-6));
   }
 }
 

@@ -15,6 +15,9 @@ struct Ramp {
   double start_up = 0.0;                                       ///< T [s], >= 0
   double hold_from = std::numeric_limits<double>::infinity();  ///< [s], >= T; infinite: never
 
+  [[nodiscard]] friend bool operator==(const Ramp& a, const Ramp& b) noexcept {
+    return a.speed == b.speed && a.start_up == b.start_up && a.hold_from == b.hold_from;
+  }
   [[nodiscard]] double displacement(double time) const noexcept {
     const double t = std::fmax(0.0, std::fmin(time, hold_from));
     if (t < start_up) return 0.5 * speed * (t - start_up / std::numbers::pi * std::sin(std::numbers::pi * t / start_up));

@@ -34,7 +34,7 @@ struct CheckpointError : std::runtime_error {
 namespace detail {
 
 inline constexpr std::string_view checkpoint_magic = "\x89" "dmpckp\n";
-inline constexpr std::uint32_t checkpoint_byte_order = 0x01020304, swapped_byte_order = 0x04030201, checkpoint_version = 1;
+inline constexpr std::uint32_t checkpoint_byte_order = 0x01020304, swapped_byte_order = 0x04030201, checkpoint_version = 2;
 inline constexpr std::uint32_t section_mark = 1, end_mark = 2;
 
 [[noreturn]] inline void reject_checkpoint(const std::filesystem::path& path, const std::string& what) {

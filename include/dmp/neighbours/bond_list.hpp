@@ -63,6 +63,7 @@ class BondList {
   /// `same_group`: both ends lie in this group; if not, `own_is_j` picks the end that does. `pack` entries make a whole pack.
   void build(const Blocks& blocks, std::span<const Bond> bonds, bool same_group, bool own_is_j, std::size_t pack, Strides strides) {
     strides_ = strides;
+    pack_ = pack;
     const std::size_t particles = blocks.end(blocks.size() - 1);
     std::vector<std::uint32_t> block_of(particles);
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -128,8 +129,9 @@ class BondList {
     return {rest_length_.data() + offset_[i], memory_.data() + first, length_.data() + first};
   }
   [[nodiscard]] const double* memories_of(std::size_t i) const noexcept { return memory_.data() + offset_[i]; }
-  /// All of it, for checkpoints.
+  /// All of it, for checkpoints: entry by entry, so that the width of packs is part of the name.
   [[nodiscard]] particles::GroupView view(std::string name) {
+    name += " in packs of " + std::to_string(pack_);
     particles::GroupView result{std::move(name), "bonds", true, {}, {{"rest_length", "m", 1, rest_length_, false}}};
     if (!memory_.empty()) {
       result.columns.push_back({"memory", "", 1, memory_, false});
@@ -186,7 +188,8 @@ class BondList {
  private:
   /// Of each bond, whether it is listed at its end j rather than i. Particles take as many of their bonds within the block as fill whole
   /// packs, one after the other, and leave the rest to partners who have others too.
-  [[nodiscard]] static std::vector<bool> fill_packs(std::span<const std::uint32_t> block_of, std::span<const Bond> bonds, std::size_t pack) {
+  [[nodiscard]] static std::vector<bool> fill_packs(std::span<const std::uint32_t> block_of, std::span<const Bond> bonds,
+                                                    std::size_t pack) {
     std::vector<std::uint32_t> listed(block_of.size(), 0), first(block_of.size() + 1, 0), order(bonds.size());
     const auto lower = [&bonds](std::size_t b) { return std::min(bonds[b].i, bonds[b].j); };
     const auto within = [&](std::size_t b) { return block_of[bonds[b].i] == block_of[bonds[b].j]; };
@@ -217,7 +220,7 @@ class BondList {
 
   std::vector<std::uint32_t> offset_{0}, partner_, reaction_;
   std::vector<double> rest_length_, weight_, memory_, length_;
-  std::size_t weight_step_ = 0;
+  std::size_t weight_step_ = 0, pack_ = 1;
   Strides strides_;
   std::vector<std::uint8_t> crosses_;
 };

@@ -100,7 +100,8 @@ class CellGrid {
     } else {
       const auto in_plane = [&](std::size_t plane, double aside_of_plane) {
         for (int c = low[1]; c <= high[1]; ++c)
-          add((plane + static_cast<std::size_t>(c)) * static_cast<std::size_t>(cells_.count[0]), aside_of_plane + aside_squared(x[1], c, 1));
+          add((plane + static_cast<std::size_t>(c)) * static_cast<std::size_t>(cells_.count[0]),
+              aside_of_plane + aside_squared(x[1], c, 1));
       };
       if constexpr (Dim == 2) in_plane(0, 0.0);
       else
@@ -110,7 +111,9 @@ class CellGrid {
     search(query, rows, found);
   }
 
-  [[nodiscard]] std::size_t bytes() const noexcept { return sort_.bytes() + Dim * coordinate_[0].capacity() * sizeof(float); }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return sort_.bytes() + Dim * coordinate_[0].capacity() * sizeof(float) + exact_.capacity() * sizeof(Vector<Dim>);
+  }
 
  private:
   using Lanes = Pack<float, native_width<float>>;

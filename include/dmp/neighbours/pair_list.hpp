@@ -125,6 +125,8 @@ class PairList {
   [[nodiscard]] std::size_t bytes() const noexcept {
     std::size_t result = at_.capacity() * sizeof(At);
     for (const auto& rows : rows_) result += rows.capacity() * sizeof(std::uint32_t);
+    for (const auto& [found, beyond, listed] : found_)
+      result += (found.rows.capacity() + found.fraction.capacity() + beyond.capacity() + listed.capacity()) * sizeof(std::uint32_t);
     return result;
   }
 

@@ -87,6 +87,7 @@ class RelativeMotion {
     double farthest = 0.0;  ///< how far [m] the farthest particle has gone along an axis, whoever goes with it
   };
   /// From the displacements of all runs; then used(cell) holds too: the largest of particles in that cell from any of their neighbours.
+  /// What is not a number counts for nothing: a check of the state finds it.
   [[nodiscard]] Wear find_wear() {
     const Ranges cells(cells_.total(), 256);
     const auto larger = [](double a, double b) { return std::max(a, b); };
@@ -115,7 +116,8 @@ class RelativeMotion {
   }
   [[nodiscard]] double used(std::uint32_t cell) const noexcept { return used_[cell]; }
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return runs_.capacity() * sizeof(Run<Dim>) + by_cell_.bytes() + moved_.capacity() * sizeof(Bounds<Dim>) + used_.capacity() * sizeof(double);
+    return runs_.capacity() * sizeof(Run<Dim>) + by_cell_.bytes() + moved_.capacity() * sizeof(Bounds<Dim>) +
+           used_.capacity() * sizeof(double);
   }
 
  private:

@@ -10,7 +10,8 @@
 
 namespace dmp::particles {
 
-/// What pairs and bonds say of the partner further down, summed in double, one record per particle, padded to whole vector registers.
+/// What bonds say of a particle, and pairs of the partner further down, summed in double, one record per particle, padded to whole vector
+/// registers.
 template <int Dim, class List>
 class Sums;
 template <int Dim, class... Field>

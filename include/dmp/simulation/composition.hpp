@@ -222,7 +222,7 @@ struct Layout {
   using seen = unite<Record, Constants>;  ///< what laws see of a particle
   using prepared = unite<Fields<field::Position, field::Velocity>, State, Derived, Constants>;  ///< what material laws work on
   static constexpr bool has_pairs = HasPairs, has_bonds = HasBonds, has_substeps = HasSubsteps, has_records = HasPairs || HasBonds;
-  static constexpr bool sums_in_memory = SumsInMemory;  ///< has pairs between its own particles, or bonds
+  static constexpr bool sums_in_memory = SumsInMemory;  ///< has pairs between its own particles, or bonds that act on it
 };
 
 /// A rate of change as it was one step ago, for integrators that extrapolate the state.
@@ -261,8 +261,8 @@ struct Compose {
   static_assert(confinements == 0 || std::is_same_v<Mobility, particles::Mobile>,
                 "dmp: confined_by: only mobile groups make way for a plane; driven groups and rollers follow their motion");
   static_assert(confinements == 0 || !has_substeps,
-                "dmp: confined_by: where the particles of a group with sub-stepped bonds will be is not known; make them bonds<...>, or the "
-                "plane a forcing::Plane");
+                "dmp: confined_by: where the particles of a group with sub-stepped bonds will be is not known; make them bonds<...>, or "
+                "the plane a forcing::Plane");
   static_assert(confinements == 0 || !((solves_dashpots<Item> && joins<Tag, Item>) || ...),
                 "dmp: confined_by: the dashpots of implicit_bonds are solved for without contact; make them bonds<...>, or the plane a "
                 "forcing::Plane");

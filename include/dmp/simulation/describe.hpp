@@ -74,6 +74,10 @@ template <class Scene>
       text << ", every " << active.item.every << (active.item.every == 1 ? " step, a sweep" : " steps, a sweep") << " of its own\n";
       any = true;
     }
+    if constexpr (is_confined<I>) {
+      text << "  contact planes in front of which particles stay: " << active.item.planes.size() << '\n';
+      any = true;
+    }
     if constexpr (is_bonds<I>) {
       text << "  bonds " << name(std::type_identity<typename I::A>{}) << " - " << name(std::type_identity<typename I::B>{}) << ": "
            << active.item.bonds.size() << " bonds" << (I::uses_velocity ? ", with velocities" : "")

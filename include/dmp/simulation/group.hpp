@@ -141,7 +141,7 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
   std::vector<std::uint32_t> id;
   View<Dim, double, typename Layout::constants> constants;
   Records records;
-  Sums sums;                  ///< what pairs within a block say of the partner further down, while a block is swept
+  Sums sums;                  ///< what bonds, and pairs within a block, say of a particle, while its block is swept
   Blocks blocks;              ///< of the particles, and their division among the threads
   bool may_be_sorted = true;  ///< bonds hold rows, so bonded groups keep their order
 };

@@ -69,8 +69,8 @@ template <class Law>
 }
 
 /// Adds what the bonds of one item do to the particles of a group as they stand now, with `per_mass` = f/m: f k/m n n^T to the springs,
-/// f c/m n n^T to the dashpots, and across a bond under tension f T/(m r) (1 - n n^T) to the springs. A bond of length zero, or of one whose
-/// square overflows, may act in any direction.
+/// f c/m n n^T to the dashpots, and across a bond under tension f T/(m r) (1 - n n^T) to the springs. A bond of length zero, or of one
+/// whose square overflows, may act in any direction.
 template <class Law, class G, class Partners>
 void add_holds(const Law& law, double per_mass, const neighbours::BondList& list, const G& g, const Partners& partners,
                const geometry::Box<G::Dim>& box, Holds<G::Dim>& springs, Holds<G::Dim>& dashpots) {

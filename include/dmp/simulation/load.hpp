@@ -26,7 +26,8 @@ struct Load {
 ///   load_on<Beads>(scene, plane).force
 /// The law need not be part of the scene. At `time` [s], if it is not the scene's. The same bits for any number of threads.
 /// A forcing::ContactPlane must be one of the scene's (ParameterError), and the force is that of its last evaluation, whatever `time`: in a
-/// run the one that keeps the particles in front for the next step, and what the step just made has needed besides.
+/// run the one that keeps the particles in front for the next step, and what the step just made has needed besides. A particle that two
+/// opposite planes touch at once bears the difference of their forces, on the one that presses harder.
 template <class Tag, class Scene, class Law>
 [[nodiscard]] Load<Scene::dimension> load_on(const Scene& scene, const Law& law, double time) {
   constexpr int dim = Scene::dimension;
@@ -37,9 +38,9 @@ template <class Tag, class Scene, class Law>
     static_assert(meets_planes<decltype(g)>, "dmp: load_on: no confined_by of the scene concerns the group");
     bool known = false;
     for_each_plane(scene.engine(), g, [&](const auto& plane, const Vector<dim>& normal) {
-      known = known || (plane.position == law.position && normal == to_vector<dim>(law.normal));
+      known = known || (plane.position == law.position && plane.motion == law.motion && normal == to_vector<dim>(law.normal));
     });
-    require(known, "load_on: a contact plane must be one of the scene's, with its position [m] and normal", law.position);
+    require(known, "load_on: a contact plane must be one of the scene's, with its normal, motion and position [m]", law.position);
   } else {
     static_assert(forcing::explain_forcing<Law, dim>());
   }

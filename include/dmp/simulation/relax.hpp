@@ -121,8 +121,8 @@ struct Rotation {
 /// Brings the mobile groups of a scene to rest in a minimum of their energy, by damped dynamics (FIRE): velocities are turned towards the
 /// forces while these do work, and set to zero when they do not. The clock of the scene stands still; velocities are zero afterwards, and
 /// accelerations those at `time`. For bonds, potentials, forcings of position, and contact planes: these bear what presses at them, and
-/// what is behind one is put on it first. What damps serves no purpose. The same bits for any number of threads. Throws SimulationError if it
-/// does not converge.
+/// what is behind one is put on it first. What damps serves no purpose. The same bits for any number of threads. Throws SimulationError if
+/// it does not converge.
 /// Takes a number of evaluations that grows as the square root of stiffest over softest: twice as many for twice the beads across.
 /// E. Bitzek, P. Koskinen, F. Gaehler, M. Moseler, P. Gumbsch, Phys. Rev. Lett. 97 (2006) 170201, doi:10.1103/PhysRevLett.97.170201.
 template <int Dim, class Integrator, class Precision, class... Item>
@@ -225,7 +225,9 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
                             {time, scene.step(), "", -1, "largest force [N]", report.largest_force});
     if (report.evaluations % look_every == 0 || report.largest_force > look_at * force_then) {
       force_then = report.largest_force;
-      longest = longest_step();
+      const double bound = longest_step();
+      if (dt > bound / safety) stop();              // the last step was too long for what it met
+      longest = std::fmin(bound, look_at * longest);  // what is stiff and has just been left is met again
       dt = std::fmin(dt, longest);
     }
     if (!(longest < std::numeric_limits<double>::infinity()))

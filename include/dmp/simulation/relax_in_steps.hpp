@@ -28,9 +28,9 @@ struct StepsReport {
 /// Brings a scene from rest at `from` to rest at `until`, by states of rest in between while plates and driven groups move on. folded()
 /// counts what a step must not add to: beads whose layers have been pushed through each other,
 ///   relax_in_steps(scene, options, [&] { return folded_beads<3>(body.bonds, start, scene.group<Beads>().positions()).size(); });
-/// If it finds more than before, the step is taken back and done in two halves, and each of these likewise. A smallest step that folds beads
-/// all the same is kept: there the body gives way. guess(from, to) may move particles before each step, e.g. by a uniform strain.
-/// Throws as relax does, and ParameterError.
+/// If it finds more than before, the step is taken back and done in two halves, and each of these likewise. A smallest step that folds
+/// beads all the same is kept: there the body gives way. guess(from, to) may move particles before each step, e.g. by a uniform strain.
+/// Throws as relax does, the particles being where the last state of rest has them, and ParameterError.
 template <class Scene, class Folded, class Guess>
 StepsReport relax_in_steps(Scene& scene, const StepsOptions& options, const Folded& folded, const Guess& guess) {
   require_not_negative("relax_in_steps: from", options.from, "s");
@@ -54,7 +54,12 @@ StepsReport relax_in_steps(Scene& scene, const StepsOptions& options, const Fold
     guess(from, to);
     RelaxOptions relaxing = options.relax;
     relaxing.time = to;
-    report.evaluations += relax(scene, relaxing).evaluations;
+    try {
+      report.evaluations += relax(scene, relaxing).evaluations;
+    } catch (...) {
+      for_each_position([](auto& present, const auto& before) { present = before; });
+      throw;
+    }
     const std::size_t found = folded();
     const double middle = 0.5 * (from + to);
     if (found > report.folded && halvings < options.most_halvings && from < middle && middle < to) {

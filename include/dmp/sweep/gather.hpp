@@ -70,7 +70,8 @@ template <int Dim, class I, class Source, class Sums, class... Law>
 }
 
 /// The same for pairs that are listed once: what the laws say of the partners goes to `add(index, sums)`. The laws are asked twice, once
-/// from either side; what is the same for both the compiler computes once. Particles of a source with Source::Constants have these in common.
+/// from either side; what is the same for both the compiler computes once. Particles of a source with Source::Constants have these in
+/// common.
 template <int Dim, class I, class Source, class Sums, class Add, class... Law>
 [[gnu::always_inline]] inline void sum_pairs_of_both(const I& particle, const Source source, std::span<const std::uint32_t> neighbours,
                                                      Sums& total, const Add add, const Law... law) noexcept {

@@ -98,8 +98,8 @@ struct PotentialForce {
   /// most if they attract each other first; and, should the potential not turn them back, a quarter of the cut-off. They are taken to turn
   /// back where U first falls below their energy, counted from the inside: at the core. Wells, hills and shoulders farther out are resolved
   /// since stability asks for more, as long as largest_stiffness bounds U'' there. Their energy is m v^2/2 + U where the force is m a, so
-  /// that the step stays about the same throughout the collision of two alone; it is chosen anew in every step, since others accelerate them
-  /// too. Particles squeezed from all sides have no acceleration: that is what largest_stiffness is stated for.
+  /// that the step stays about the same throughout the collision of two alone; it is chosen anew in every step, since others accelerate
+  /// them too. Particles squeezed from all sides have no acceleration: that is what largest_stiffness is stated for.
   [[nodiscard]] double collision_step(double mass, double speed, double acceleration) const {
     const auto force = [this](double r) { return r * potential.force_factor(r * r); };
     const auto energy = [this](double r) { return potential.energy(r * r); };
