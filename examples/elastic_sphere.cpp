@@ -84,6 +84,12 @@ void look_below(const std::vector<Vector<3>>& x, const std::vector<double>& shea
   found.shear = largest / (1.5 * found.curve.back().force / (std::numbers::pi * a * a));
 }
 
+/// A plate without penetration.
+[[nodiscard]] forcing::ContactPlane<3> contact_plate(const std::vector<Vector<3>>& body, double side) {
+  const auto plane = example::plate(body, side);
+  return {.normal = plane.normal, .position = plane.position, .motion = plane.motion};
+}
+
 /// `planes`: what lets the plates act on the beads.
 template <class Plate, class Planes>
 Found compress(const lattice_spring::Body<3>& body, const Plate& below, const Plate& above, const Planes& planes, const Setup& setup,
@@ -157,7 +163,7 @@ Found compress(lattice_spring::Body<3> body, const Setup& setup, const io::Outpu
   lattice_spring::measure_rest_lengths<3>(body.bonds, body.points.positions);
   const auto& x = body.points.positions;
   if (setup.true_contact) {
-    const auto below = example::contact_plate(x, -1.0), above = example::contact_plate(x, 1.0);
+    const auto below = contact_plate(x, -1.0), above = contact_plate(x, 1.0);
     return compress(body, below, above, confined_by<Beads>(below, above), setup, folder, result);
   }
   const auto below = example::plate(x, -1.0), above = example::plate(x, 1.0);

@@ -38,12 +38,6 @@ constexpr double plate_strength = 1e10;  // S [N/m^2]
   return {.normal = {{0.0, 0.0, -side}}, .position = -outermost, .strength = plate_strength, .motion = {.speed = 0.5}};
 }
 
-/// The same plate without penetration.
-[[nodiscard]] inline dmp::forcing::ContactPlane<3> contact_plate(const std::vector<dmp::Vector<3>>& body, double side) {
-  const auto plane = plate(body, side);
-  return {.normal = plane.normal, .position = plane.position, .motion = plane.motion};
-}
-
 /// One state of the body at rest between the plates.
 struct Pressed {
   double approach;        // delta of the plates since first touch [m]
