@@ -114,6 +114,23 @@ TEST_CASE("a fast bead that meets a free one head-on hands over its velocity, m1
     }
 }
 
+TEST_CASE("two beads that start beyond each other's lists meet, with nobody in between and others far away") {
+  for (const double apart : {1.3, 1.5, 2.0, 2.3, 3.1}) {
+    CAPTURE(apart);
+    const std::vector<double> x{-6.6, -0.5 * apart, 0.5 * apart, 5.4}, v{0.0, 0.1, -0.1, 0.0};  // lists reach 1.2, a tenth of all this
+    geometry::Points<1> points;
+    for (const double at : x) points.positions.push_back(Vector<1>(at));
+    const potential::LennardJones law{.energy_scale = 1.0, .diameter = 0.89, .cutoff = 0.89 * cutoff};
+    auto line = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, points, 1.0), interaction<Shot, Shot>(law));
+    for (std::size_t i = 0; i < 4; ++i) line.group<Shot>().get<field::Velocity>()[i] = Vector<1>(v[i]);
+    line.run({.until = 10.0 * apart, .time_step = 0.005});
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto bead = line.group<Shot>().id[i];
+      CHECK(line.group<Shot>().get<field::Velocity>()[i][0] == doctest::Approx(-v[bead]).epsilon(1e-4));
+    }
+  }
+}
+
 namespace {
 
 /// U = eps (1 - (r/r_c)^2)^2: a hill of height eps, which does not turn back what has more. Its U'' jumps at r_c: there a step of

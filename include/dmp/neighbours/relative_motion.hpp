@@ -40,16 +40,21 @@ struct Run {
 };
 
 /// How much of the skin of neighbour lists has been used up, place by place: by how much neighbours have moved relative to each other since
-/// the lists were built. What moves along together wears no lists, however fast. Coarse cells are as wide as the lists reach, so that
-/// neighbours lie in the same cell or in two that touch.
+/// the lists were built, and how much of what kept others apart. What moves along together wears no lists, however fast.
+///
+/// Coarse cells are somewhat wider than the lists reach. Neighbours lie in the same cell or in two that touch, and have used up their
+/// relative displacement. Two in cells that do not touch have at least one width in between, along some axis, and may approach each other
+/// along it by what the width is more than the reach before they use up any skin.
 template <int Dim>
 class RelativeMotion {
  public:
-  /// Coarse cells over `bounds`, all groups together; `reach` [m]: cut-off and skin. Wider cells where these would be many more than the
-  /// `particles`. Nobody is followed yet.
-  void build(const Bounds<Dim>& bounds, const geometry::Box<Dim>& box, double reach, std::size_t particles) {
+  /// Coarse cells over `bounds`, all groups together, for lists that reach as far as `cutoff` and `skin` [m]. Wider cells where these would
+  /// be many more than the `particles`. Nobody is followed yet.
+  void build(const Bounds<Dim>& bounds, const geometry::Box<Dim>& box, double cutoff, double skin, std::size_t particles) {
+    reach_ = cutoff + skin;
+    // By half a skin: in shear, three widths that part as much more than two leave room for that much.
     cells_ = Cells<Dim>(
-        2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach,
+        2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach_ + 0.5 * skin,
         std::min(4.0 * static_cast<double>(particles) + 64.0, 1e6));
     periodic_ = box.periodic;
     runs_.clear();
@@ -83,36 +88,42 @@ class RelativeMotion {
   [[nodiscard]] std::span<Run<Dim>> runs(std::size_t begin, std::size_t end) noexcept { return {runs_.data() + begin, end - begin}; }
 
   struct Wear {
-    double relative = 0.0;  ///< the largest relative displacement [m] of neighbours anywhere
+    double used = 0.0;      ///< of the skin [m], where it is most
     double farthest = 0.0;  ///< how far [m] the farthest particle has gone along an axis, whoever goes with it
   };
-  /// From the displacements of all runs; then used(cell) holds too: the largest of particles in that cell from any of their neighbours.
-  /// What is not a number counts for nothing: a check of the state finds it.
+  /// From the displacements of all runs; then used(cell) holds too: the largest relative displacement [m] of particles in that cell from any
+  /// of their neighbours. What is not a number counts for nothing: a check of the state finds it.
   [[nodiscard]] Wear find_wear() {
     const Ranges cells(cells_.total(), 256);
-    const auto larger = [](double a, double b) { return std::max(a, b); };
-    const double farthest = merge_ranges(
+    const Bounds<Dim> all = merge_ranges(
+        cells, Bounds<Dim>{},
+        [this](std::size_t first, std::size_t last) {
+          Bounds<Dim> result;
+          for (std::size_t cell = first; cell < last; ++cell) {
+            Bounds<Dim> moved;
+            for (std::size_t k = by_cell_.begin(cell); k < by_cell_.begin(cell + 1); ++k) moved.add(runs_[by_cell_.rows()[k]].displacement);
+            result.add(moved_[cell] = moved);
+          }
+          return result;
+        },
+        [](Bounds<Dim> a, const Bounds<Dim>& b) {
+          a.add(b);
+          return a;
+        });
+    if (all.empty()) return {};
+    const double around = merge_ranges(
         cells, 0.0,
         [this](std::size_t first, std::size_t last) {
           double result = 0.0;
           for (std::size_t cell = first; cell < last; ++cell) {
-            Bounds<Dim> moved;
-            for (std::size_t k = by_cell_.begin(cell); k < by_cell_.begin(cell + 1); ++k) moved.add(runs_[by_cell_.rows()[k]].displacement);
-            if (!moved.empty()) result = std::max({result, -moved.lower.minCoeff(), moved.upper.maxCoeff()});
-            moved_[cell] = moved;
+            const Around found = look_around(cell);
+            used_[cell] = found.relative;
+            result = std::max({result, found.relative, used_by(found.approach, 1)});
           }
           return result;
         },
-        larger);
-    const double relative = merge_ranges(
-        cells, 0.0,
-        [this](std::size_t first, std::size_t last) {
-          double largest = 0.0;
-          for (std::size_t cell = first; cell < last; ++cell) largest = std::max(largest, used_[cell] = largest_around(cell));
-          return largest;
-        },
-        larger);
-    return {relative, farthest};
+        [](double a, double b) { return std::max(a, b); });
+    return {std::max(around, used_by(all.upper - all.lower, 2)), std::max(-all.lower.minCoeff(), all.upper.maxCoeff())};
   }
   [[nodiscard]] double used(std::uint32_t cell) const noexcept { return used_[cell]; }
   [[nodiscard]] std::size_t bytes() const noexcept {
@@ -121,9 +132,12 @@ class RelativeMotion {
   }
 
  private:
-  [[nodiscard]] double largest_around(std::size_t cell) const noexcept {
+  struct Around {
+    double relative;       // displacement of particles in a cell, and in those that touch it, at most
+    Vector<Dim> approach;  // of particles on its two sides, along each axis
+  };
+  [[nodiscard]] Around look_around(std::size_t cell) const noexcept {
     const auto& own = moved_[cell];
-    if (own.empty()) return 0.0;
     std::array<int, Dim> at;
     std::size_t rest = cell;
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -131,30 +145,48 @@ class RelativeMotion {
       rest /= static_cast<std::size_t>(cells_.count[d]);
     }
     double largest_squared = 0.0;
-    for_each_around(at, Dim - 1, 0, [&](std::size_t other) {
+    Bounds<Dim> sides;  // upper: of those before the cell along each axis; lower: of those behind it
+    std::array<int, Dim> offset;
+    for_each_around(at, offset, Dim - 1, 0, [&](std::size_t other) {
       const auto& its = moved_[other];
-      if (!its.empty())
-        largest_squared = std::max(largest_squared, (its.upper - own.lower).cwiseMax(own.upper - its.lower).squaredNorm());
+      if (its.empty()) return;
+      if (!own.empty()) largest_squared = std::max(largest_squared, (its.upper - own.lower).cwiseMax(own.upper - its.lower).squaredNorm());
+      for (int d = 0; d < Dim; ++d) {
+        const int side = offset[static_cast<std::size_t>(d)];
+        if (side < 0) sides.upper[d] = std::max(sides.upper[d], its.upper[d]);
+        if (side > 0) sides.lower[d] = std::min(sides.lower[d], its.lower[d]);
+      }
     });
-    return std::sqrt(largest_squared);
+    return {std::sqrt(largest_squared), sides.upper - sides.lower};
   }
+  /// What particles that approach each other along an axis use up of the skin, with so many cells in between or more.
+  [[nodiscard]] double used_by(const Vector<Dim>& approach, int cells_between) const noexcept {
+    double result = 0.0;
+    for (int d = 0; d < Dim; ++d)
+      if (cells_.count[static_cast<std::size_t>(d)] > cells_between + 1)
+        result = std::max(result, approach[d] - cells_between * cells_.width[d] + reach_);
+    return result;
+  }
+  /// Calls function(cell) for the cell `at` and those that touch it, with `offset` -1, 0 or 1 along each axis.
   template <class Function>
-  void for_each_around(const std::array<int, Dim>& at, int direction, std::size_t before, const Function& function) const noexcept {
+  void for_each_around(const std::array<int, Dim>& at, std::array<int, Dim>& offset, int direction, std::size_t before,
+                       const Function& function) const noexcept {
     if (direction < 0) {
       function(before);
       return;
     }
     const auto d = static_cast<std::size_t>(direction);
     const int count = cells_.count[d];
-    for (int c = at[d] - 1; c <= at[d] + 1; ++c) {
-      const int wrapped = periodic_[d] ? (c + count) % count : c;
+    for (offset[d] = -1; offset[d] <= 1; ++offset[d]) {
+      const int c = at[d] + offset[d], wrapped = periodic_[d] ? (c + count) % count : c;
       if (wrapped >= 0 && wrapped < count)
-        for_each_around(at, direction - 1, before * static_cast<std::size_t>(count) + static_cast<std::size_t>(wrapped), function);
+        for_each_around(at, offset, direction - 1, before * static_cast<std::size_t>(count) + static_cast<std::size_t>(wrapped), function);
     }
   }
 
   Cells<Dim> cells_;
   std::array<bool, Dim> periodic_{};
+  double reach_ = 0.0;              // [m]
   std::vector<Run<Dim>> runs_;      // of all groups
   CountingSort by_cell_;            // runs in the order of their cells
   std::vector<Bounds<Dim>> moved_;  // displacements in each cell

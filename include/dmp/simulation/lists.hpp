@@ -78,13 +78,13 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
     ++list_builds_;
   }
 
-  /// Whether neighbours have moved relative to each other by more than the skin, or all of them too far; and how far the lists must be read
+  /// Whether particles may have come near each other that are not in the lists, or all have gone too far; and how far the lists must be read
   /// until then.
   [[nodiscard]] bool lists_are_worn() {
     if constexpr (has_pairs) {
       if (this->exclusions_are_worn()) return true;
       const auto wear = relative_motion_.find_wear();
-      if (!(wear.relative <= skin_)) return true;
+      if (!(wear.used <= skin_)) return true;
       if (wear.farthest > longest_cutoff_) return true;  // time to go back into the periodic box
       for_each_group_in_pairs([this](auto& g) {
         for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
@@ -199,7 +199,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
       }
     });
     const double reach = longest_cutoff_ + skin_;
-    relative_motion_.build(bounds, this->box_, reach, particles);
+    relative_motion_.build(bounds, this->box_, longest_cutoff_, skin_, particles);
     const double extent = 2.0 * ((bounds.upper - bounds.lower).maxCoeff() + 4.0 * reach);  // room for ghosts, and for moving along
     for_each_group([&](auto& g) { g.records.set_frame({0.5 * (bounds.lower + bounds.upper), extent}); });
     for_each_group([&](auto& g) {
