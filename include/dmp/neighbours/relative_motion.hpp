@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 #include <dmp/core/aligned.hpp>
+#include <dmp/core/pack.hpp>
 #include <dmp/core/threads.hpp>
+#include <dmp/core/unrolled.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/geometry/box.hpp>
 #include <dmp/neighbours/cells.hpp>
@@ -57,16 +59,23 @@ class RelativeMotion {
         2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach_ + 0.5 * skin,
         std::min(4.0 * static_cast<double>(particles) + 64.0, 1e6));
     periodic_ = box.periodic;
+    stride_[0] = 1;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      auto cells = static_cast<std::size_t>(cells_.count[d]);
+      if (d == 0) cells = (cells + Lanes::width - 1) / Lanes::width * Lanes::width;
+      stride_[d + 1] = stride_[d] * (cells + 2);
+    }
     runs_.clear();
-    moved_.resize(cells_.total());
-    used_.assign(cells_.total(), 0.0);
+    for (auto& x : lower_) x.resize(total());
+    for (auto& x : upper_) x.resize(total());
+    used_.assign(total(), 0.0);
   }
   /// Follows a group from where it is now. Sets first_run: the runs of block b are number first_run[b] .. first_run[b + 1] - 1.
   void follow(const Blocks& blocks, std::span<const Vector<Dim>> positions, std::vector<std::size_t>& first_run) {
     const auto for_each_run = [&](std::size_t block, auto&& function) {
       std::uint32_t last = 0;
       for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i)
-        if (const auto cell = static_cast<std::uint32_t>(cells_.index(positions[i])); i == blocks.begin(block) || cell != last)
+        if (const auto cell = index(positions[i]); i == blocks.begin(block) || cell != last)
           function(static_cast<std::uint32_t>(i), last = cell);
     };
     first_run.assign(blocks.size() + 1, 0);
@@ -82,7 +91,7 @@ class RelativeMotion {
       std::size_t run = first_run[block];
       for_each_run(block, [&](std::uint32_t i, std::uint32_t cell) { runs_[run++] = {i, cell}; });
     });
-    by_cell_.sort(runs_.size(), cells_.total(), [this](std::size_t run) { return runs_[run].cell; });
+    by_cell_.sort(runs_.size(), total(), [this](std::size_t run) { return runs_[run].cell; });
   }
   /// Runs `begin` .. `end` - 1, for their displacements to be set.
   [[nodiscard]] std::span<Run<Dim>> runs(std::size_t begin, std::size_t end) noexcept { return {runs_.data() + begin, end - begin}; }
@@ -94,16 +103,12 @@ class RelativeMotion {
   /// From the displacements of all runs; then used(cell) holds too: the largest relative displacement [m] of particles in that cell from any
   /// of their neighbours. What is not a number counts for nothing: a check of the state finds it.
   [[nodiscard]] Wear find_wear() {
-    const Ranges cells(cells_.total(), 256);
+    const Ranges rows(total() / stride_[1], 32);  // of cells along the first direction
     const Bounds<Dim> all = merge_ranges(
-        cells, Bounds<Dim>{},
+        rows, Bounds<Dim>{},
         [this](std::size_t first, std::size_t last) {
           Bounds<Dim> result;
-          for (std::size_t cell = first; cell < last; ++cell) {
-            Bounds<Dim> moved;
-            for (std::size_t k = by_cell_.begin(cell); k < by_cell_.begin(cell + 1); ++k) moved.add(runs_[by_cell_.rows()[k]].displacement);
-            result.add(moved_[cell] = moved);
-          }
+          for (std::size_t row = first; row < last; ++row) result.add(find_displacements(row));
           return result;
         },
         [](Bounds<Dim> a, const Bounds<Dim>& b) {
@@ -112,85 +117,127 @@ class RelativeMotion {
         });
     if (all.empty()) return {};
     const double around = merge_ranges(
-        cells, 0.0,
+        rows, 0.0,
         [this](std::size_t first, std::size_t last) {
           double result = 0.0;
-          for (std::size_t cell = first; cell < last; ++cell) {
-            const Around found = look_around(cell);
-            used_[cell] = found.relative;
-            result = std::max({result, found.relative, used_by(found.approach, 1)});
-          }
+          for (std::size_t row = first; row < last; ++row) result = std::max(result, look_around(row));
           return result;
         },
         [](double a, double b) { return std::max(a, b); });
-    return {std::max(around, used_by(all.upper - all.lower, 2)), std::max(-all.lower.minCoeff(), all.upper.maxCoeff())};
+    const double anywhere = used_by<double>(2, [&all](int d) { return all.upper[d] - all.lower[d]; });
+    return {std::max(around, anywhere), std::max(-all.lower.minCoeff(), all.upper.maxCoeff())};
   }
   [[nodiscard]] double used(std::uint32_t cell) const noexcept { return used_[cell]; }
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return runs_.capacity() * sizeof(Run<Dim>) + by_cell_.bytes() + moved_.capacity() * sizeof(Bounds<Dim>) +
-           used_.capacity() * sizeof(double);
+    return runs_.capacity() * sizeof(Run<Dim>) + by_cell_.bytes() + (2 * Dim * lower_[0].capacity() + used_.capacity()) * sizeof(double);
   }
 
  private:
-  struct Around {
-    double relative;       // displacement of particles in a cell, and in those that touch it, at most
-    Vector<Dim> approach;  // of particles on its two sides, along each axis
-  };
-  [[nodiscard]] Around look_around(std::size_t cell) const noexcept {
-    const auto& own = moved_[cell];
-    std::array<int, Dim> at;
-    std::size_t rest = cell;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      at[d] = static_cast<int>(rest % static_cast<std::size_t>(cells_.count[d]));
-      rest /= static_cast<std::size_t>(cells_.count[d]);
-    }
-    double largest_squared = 0.0;
-    Bounds<Dim> sides;  // upper: of those before the cell along each axis; lower: of those behind it
-    std::array<int, Dim> offset;
-    for_each_around(at, offset, Dim - 1, 0, [&](std::size_t other) {
-      const auto& its = moved_[other];
-      if (its.empty()) return;
-      if (!own.empty()) largest_squared = std::max(largest_squared, (its.upper - own.lower).cwiseMax(own.upper - its.lower).squaredNorm());
-      for (int d = 0; d < Dim; ++d) {
-        const int side = offset[static_cast<std::size_t>(d)];
-        if (side < 0) sides.upper[d] = std::max(sides.upper[d], its.upper[d]);
-        if (side > 0) sides.lower[d] = std::min(sides.lower[d], its.lower[d]);
-      }
-    });
-    return {std::sqrt(largest_squared), sides.upper - sides.lower};
+  using Lanes = Pack<double, native_width<double>>;
+  using Place = std::array<int, Dim>;  // of a cell along each direction: 1 .. count, and what is around these
+
+  [[nodiscard]] std::size_t total() const noexcept { return stride_[Dim]; }
+  [[nodiscard]] std::uint32_t index(const Vector<Dim>& x) const noexcept {
+    std::size_t cell = 0;
+    for (int d = 0; d < Dim; ++d) cell += (static_cast<std::size_t>(cells_.along(x[d], d)) + 1) * stride_[static_cast<std::size_t>(d)];
+    return static_cast<std::uint32_t>(cell);
   }
-  /// What particles that approach each other along an axis use up of the skin, with so many cells in between or more.
-  [[nodiscard]] double used_by(const Vector<Dim>& approach, int cells_between) const noexcept {
-    double result = 0.0;
+  /// Place of the first cell of a row.
+  [[nodiscard]] Place place_of(std::size_t row) const noexcept {
+    Place place{};
+    std::size_t cell = row * stride_[1];
+    for (std::size_t d = Dim; d-- > 1; cell %= stride_[d]) place[d] = static_cast<int>(cell / stride_[d]);
+    return place;
+  }
+  [[nodiscard]] bool inside(int place, std::size_t d) const noexcept { return place >= 1 && place <= cells_.count[d]; }
+  /// The place of which this one is an image behind a periodic face; itself in between, 0 where nobody is.
+  [[nodiscard]] int original(int place, std::size_t d) const noexcept {
+    const int count = cells_.count[d];
+    if (inside(place, d)) return place;
+    return !periodic_[d] || place > count + 1 ? 0 : place == 0 ? count : 1;
+  }
+  /// Displacements in the cells of a row, or of the row of which it is an image; returns those of all.
+  Bounds<Dim> find_displacements(std::size_t row) noexcept {
+    Bounds<Dim> all;
+    Place place = place_of(row);
+    std::size_t first = 0;
+    bool nobody = false;
+    for (std::size_t d = 1; d < Dim; ++d) {
+      const int from = original(place[d], d);
+      nobody = nobody || from == 0;
+      first += static_cast<std::size_t>(from) * stride_[d];
+    }
+    for (std::size_t k = 0; k < stride_[1]; ++k) {
+      Bounds<Dim> moved;
+      if (const int from = original(static_cast<int>(k), 0); from > 0 && !nobody) {
+        const std::size_t cell = first + static_cast<std::size_t>(from);
+        for (std::size_t r = by_cell_.begin(cell); r < by_cell_.begin(cell + 1); ++r) moved.add(runs_[by_cell_.rows()[r]].displacement);
+        all.add(moved);
+      }
+      for (std::size_t d = 0; d < Dim; ++d) {
+        lower_[d][row * stride_[1] + k] = moved.lower[static_cast<int>(d)];
+        upper_[d][row * stride_[1] + k] = moved.upper[static_cast<int>(d)];
+      }
+    }
+    return all;
+  }
+  /// What is used up in the cells of a row, towards those that touch them and between those on their two sides; returns the most.
+  double look_around(std::size_t row) noexcept {
+    const Place place = place_of(row);
+    for (std::size_t d = 1; d < Dim; ++d)
+      if (!inside(place[d], d)) return 0.0;
+    Lanes result(0.0);
+    for (int k = 1; k <= cells_.count[0]; k += Lanes::width) {
+      const std::size_t cell = row * stride_[1] + static_cast<std::size_t>(k);
+      Lanes relative_squared(0.0);
+      std::array<Lanes, Dim> before, behind;  // the largest displacement of those before the cell along each axis, the least behind it
+      before.fill(Bounds<Dim>{}.upper[0]);
+      behind.fill(Bounds<Dim>{}.lower[0]);
+      unrolled<power(3, Dim)>([&](auto around) __attribute__((always_inline)) {
+        std::ptrdiff_t away = 0;
+        for (std::size_t d = 0; d < Dim; ++d) away += side(around, d) * static_cast<std::ptrdiff_t>(stride_[d]);
+        const std::size_t other = cell + static_cast<std::size_t>(away);
+        Lanes squared(0.0);
+        for (std::size_t d = 0; d < Dim; ++d) {
+          const Lanes lower = Lanes::load(&lower_[d][other]), upper = Lanes::load(&upper_[d][other]);
+          const Lanes relative = max(max(upper - Lanes::load(&lower_[d][cell]), Lanes::load(&upper_[d][cell]) - lower), 0.0);
+          squared += relative * relative;
+          if (side(around, d) < 0) before[d] = max(before[d], upper);
+          if (side(around, d) > 0) behind[d] = min(behind[d], lower);
+        }
+        relative_squared = max(relative_squared, squared);
+      });
+      const Lanes relative = sqrt(relative_squared);
+      relative.store(&used_[cell]);
+      const auto approach = [&](int d) { return before[static_cast<std::size_t>(d)] - behind[static_cast<std::size_t>(d)]; };
+      result = max(result, max(relative, used_by<Lanes>(1, approach)));
+    }
+    double most = 0.0;
+    for (int lane = 0; lane < Lanes::width; ++lane) most = std::max(most, result[lane]);
+    return most;
+  }
+  /// Which neighbour of a cell along direction d is number `around` of 3^Dim: -1, 0 or 1.
+  [[nodiscard]] static constexpr int side(int around, std::size_t d) noexcept { return around / power(3, static_cast<int>(d)) % 3 - 1; }
+  [[nodiscard]] static constexpr int power(int base, int exponent) noexcept { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+  /// What particles that approach each other along the axes use up of the skin, with so many cells in between or more.
+  template <class T, class Approach>
+  [[nodiscard]] T used_by(int cells_between, const Approach& approach) const noexcept {
+    using std::max;
+    T result(0.0);
     for (int d = 0; d < Dim; ++d)
       if (cells_.count[static_cast<std::size_t>(d)] > cells_between + 1)
-        result = std::max(result, approach[d] - cells_between * cells_.width[d] + reach_);
+        result = max(result, approach(d) - cells_between * cells_.width[d] + reach_);
     return result;
-  }
-  /// Calls function(cell) for the cell `at` and those that touch it, with `offset` -1, 0 or 1 along each axis.
-  template <class Function>
-  void for_each_around(const std::array<int, Dim>& at, std::array<int, Dim>& offset, int direction, std::size_t before,
-                       const Function& function) const noexcept {
-    if (direction < 0) {
-      function(before);
-      return;
-    }
-    const auto d = static_cast<std::size_t>(direction);
-    const int count = cells_.count[d];
-    for (offset[d] = -1; offset[d] <= 1; ++offset[d]) {
-      const int c = at[d] + offset[d], wrapped = periodic_[d] ? (c + count) % count : c;
-      if (wrapped >= 0 && wrapped < count)
-        for_each_around(at, offset, direction - 1, before * static_cast<std::size_t>(count) + static_cast<std::size_t>(wrapped), function);
-    }
   }
 
   Cells<Dim> cells_;
   std::array<bool, Dim> periodic_{};
-  double reach_ = 0.0;              // [m]
-  std::vector<Run<Dim>> runs_;      // of all groups
-  CountingSort by_cell_;            // runs in the order of their cells
-  std::vector<Bounds<Dim>> moved_;  // displacements in each cell
-  std::vector<double> used_;
+  double reach_ = 0.0;                         // [m]
+  std::array<std::size_t, Dim + 1> stride_{};  // of cells in memory, with one more around them all, and whole packs of them in a row
+  std::vector<Run<Dim>> runs_;                 // of all groups
+  CountingSort by_cell_;                       // runs in the order of their cells
+  std::array<AlignedVector<double>, Dim> lower_, upper_;  // displacements in each cell
+  AlignedVector<double> used_;
 };
 
 }  // namespace dmp::neighbours
