@@ -193,7 +193,7 @@ int run(const example::Options& options) {
   example::Result result{.example = "viscoelastic_sphere", .test_case = "A8a, A8b, A8c, A9"};
   const bool full = options.size == example::Size::full, alone = options.resolution > 0;
   const bool quick = options.size == example::Size::quick || (alone && !full);
-  const int beads_in_radius = options.resolutions({10}, {10}, {16}).front();
+  const int beads_in_radius = options.resolutions({10}, {10}, {32}).front();
   result.resolution = "R = " + std::to_string(beads_in_radius) + " spacings" + (quick || alone ? "" : "; a network of 5,921 beads");
   auto body = ordered(beads_in_radius);
   lattice_spring::measure_rest_lengths<3>(body.bonds, body.points.positions);
