@@ -173,10 +173,13 @@ class Blocks {
   Ranges ranges_;
 };
 
-/// Calls function(thread, block) for every block. Each thread begins with the blocks of its own range, one after the other, and takes over
-/// what others have not begun when it is done: cores are not equally fast at all times.
-template <class Function>
-void for_each_block(const Blocks& blocks, Function&& function) {
+namespace detail {
+/// A function of a block without its type.
+struct BlockFunction {
+  void* object;
+  void (*call)(void* object, std::size_t thread, std::size_t block);
+};
+inline void run_blocks(const Blocks& blocks, BlockFunction function) {
   const std::size_t ranges = blocks.ranges().size();
   struct alignas(64) Next {  // no two threads share a cache line until one is done
     std::atomic<std::size_t> block;
@@ -186,9 +189,21 @@ void for_each_block(const Blocks& blocks, Function&& function) {
   for_each_range(blocks.ranges(), [&](std::size_t thread, std::size_t, std::size_t) {
     for (std::size_t k = 0; k < ranges; ++k) {
       const std::size_t range = (thread + k) % ranges, end = blocks.first_block(range + 1);
-      for (std::size_t block; (block = next[range].block.fetch_add(1, std::memory_order_relaxed)) < end;) function(thread, block);
+      for (std::size_t block; (block = next[range].block.fetch_add(1, std::memory_order_relaxed)) < end;)
+        function.call(function.object, thread, block);
     }
   });
+}
+}  // namespace detail
+
+/// Calls function(thread, block) for every block. Each thread begins with the blocks of its own range, one after the other, and takes over
+/// what others have not begun when it is done: cores are not equally fast at all times.
+template <class Function>
+void for_each_block(const Blocks& blocks, Function&& function) {
+  using F = std::remove_reference_t<Function>;
+  detail::run_blocks(blocks, {const_cast<std::remove_const_t<F>*>(&function), [](void* object, std::size_t thread, std::size_t block) {
+                                (*static_cast<F*>(object))(thread, block);
+                              }});
 }
 
 /// zero + function(row) of all rows, added up by blocks, and the blocks in their order: the same bits for any number of threads.
