@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -210,15 +209,12 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
     for_each_item([&](const auto& active) __attribute__((always_inline)) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_interaction<I>)
-        std::apply(
-            [&](const auto&... law) __attribute__((always_inline)) {
-              if constexpr (std::is_same_v<Tag, typename I::A>)
-                pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add,
-                                                                         law...);
-              else if constexpr (std::is_same_v<Tag, typename I::B>)
-                pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
-            },
-            active.item.laws);
+        active.item.laws.apply([&](const auto&... law) __attribute__((always_inline)) {
+          if constexpr (std::is_same_v<Tag, typename I::A>)
+            pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add, law...);
+          else if constexpr (std::is_same_v<Tag, typename I::B>)
+            pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
+        });
     });
   }
   /// Forces of the bonds of one phase on the particles of a block, in their rows of sums: of all before one is taken, since a bond within
@@ -338,7 +334,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
       if constexpr (is_forced<I>)
         if constexpr (I::template concerns<typename G::Tag>) {
           const auto seen = this->subject(g, i, time, dt);
-          std::apply([&](const auto&... law) { ((result += to_vector<Dim>(law.acceleration(seen))), ...); }, active.item.laws);
+          active.item.laws.apply([&](const auto&... law) { ((result += to_vector<Dim>(law.acceleration(seen))), ...); });
         }
     });
     return result;

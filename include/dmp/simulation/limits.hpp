@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <vector>
 #include <dmp/bond/concept.hpp>
@@ -157,27 +156,22 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_forced<I>)
         if constexpr (I::template concerns<typename G::Tag>)
-          std::apply(
-              [&](const auto&... law) {
-                const auto one = [&](const auto& l) {
-                  if constexpr (requires { l.damping_rate(g.mass); })
-                    if (kind != BondKind::fast) drag += l.damping_rate(g.mass);
-                  if constexpr (requires(const forcing::Subject<G::Dim> subject) { l.stiffness(subject); }) {
-                    if (kind == BondKind::fast) return;
-                    forced.resize(g.size(), 0.0);
-                    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
-                      for (std::size_t i = first; i < last; ++i) {
-                        const double stiffness = l.stiffness(engine.subject(g, i, time, 0.0));
-                        if (!(stiffness >= 0.0))
-                          throw ParameterError("stiffness of a forcing on " + g.name + " must be >= 0 N/m, got " + to_text(stiffness));
-                        forced[i] += stiffness / g.mass;
-                      }
-                    });
-                  }
-                };
-                (one(law), ...);
-              },
-              active.item.laws);
+          active.item.laws.for_each([&](const auto& law) {
+            if constexpr (requires { law.damping_rate(g.mass); })
+              if (kind != BondKind::fast) drag += law.damping_rate(g.mass);
+            if constexpr (requires(const forcing::Subject<G::Dim> subject) { law.stiffness(subject); }) {
+              if (kind == BondKind::fast) return;
+              forced.resize(g.size(), 0.0);
+              for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                  const double stiffness = law.stiffness(engine.subject(g, i, time, 0.0));
+                  if (!(stiffness >= 0.0))
+                    throw ParameterError("stiffness of a forcing on " + g.name + " must be >= 0 N/m, got " + to_text(stiffness));
+                  forced[i] += stiffness / g.mass;
+                }
+              });
+            }
+          });
     });
     if (drag > 0.0) limit.require_below(Integrator::damping_limit / (drag + pairs.damping), "drag on " + g.name);
     enum class By { bond_dashpots, drags, viscosities, bond_springs, forcing_springs, potentials };
@@ -272,15 +266,10 @@ void check_stated_rates(const Engine& engine, const Item& item) {
   if constexpr (is_forced<Item>)
     engine.for_each_group([&](const auto& g) {
       if constexpr (Item::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
-        std::apply(
-            [&](const auto&... law) {
-              const auto one = [&](const auto& l) {
-                if constexpr (requires { l.damping_rate(g.mass); })
-                  stated([&] { return "drag on " + g.name; }, "damping_rate", l.damping_rate(g.mass), "1/s");
-              };
-              (one(law), ...);
-            },
-            item.laws);
+        item.laws.for_each([&](const auto& law) {
+          if constexpr (requires { law.damping_rate(g.mass); })
+            stated([&] { return "drag on " + g.name; }, "damping_rate", law.damping_rate(g.mass), "1/s");
+        });
     });
 }
 
@@ -308,11 +297,10 @@ template <class Integrator, class Engine>
     if constexpr (is_interaction<I>) {
       const std::size_t a = index_of(std::type_identity<typename I::A>{}), b = index_of(std::type_identity<typename I::B>{});
       limit.damping = limit.oscillation = limit.sound = 0.0;
-      const auto one = [&](const auto& law) {
+      active.item.laws.for_each([&](const auto& law) {
         if constexpr (requires { law.step_limits(states[a], states[b], limit); }) law.step_limits(states[a], states[b], limit);
         else law.step_limits(detail::widest(states[a], states[b]), limit);
-      };
-      std::apply([&](const auto&... law) { (one(law), ...); }, active.item.laws);
+      });
       for (const std::size_t group : {a, b}) {
         rates[group].damping = std::max(rates[group].damping, limit.damping);
         rates[group].oscillation = std::max(rates[group].oscillation, limit.oscillation);
