@@ -49,6 +49,10 @@ class Ranges {
 };
 
 namespace detail {
+template <class F, class... Number>
+void call_object(void* object, Number... number) {
+  (*static_cast<F*>(object))(number...);
+}
 /// A function of a range without its type: what a loop does is compiled once, not once for each way to run it.
 struct RangeFunction {
   void* object;
@@ -83,10 +87,7 @@ inline void run_ranges(const Ranges& ranges, RangeFunction function) {
 template <class Function>
 void for_each_range(const Ranges& ranges, Function&& function) {
   using F = std::remove_reference_t<Function>;
-  detail::run_ranges(
-      ranges, {const_cast<std::remove_const_t<F>*>(&function), [](void* object, std::size_t range, std::size_t first, std::size_t last) {
-                 (*static_cast<F*>(object))(range, first, last);
-               }});
+  detail::run_ranges(ranges, {const_cast<std::remove_const_t<F>*>(&function), detail::call_object<F, std::size_t, std::size_t, std::size_t>});
 }
 
 /// The largest of function(first row, one past the last row) over all ranges, by `merge(a, b)`, which must not depend on the order.
@@ -201,9 +202,7 @@ inline void run_blocks(const Blocks& blocks, BlockFunction function) {
 template <class Function>
 void for_each_block(const Blocks& blocks, Function&& function) {
   using F = std::remove_reference_t<Function>;
-  detail::run_blocks(blocks, {const_cast<std::remove_const_t<F>*>(&function), [](void* object, std::size_t thread, std::size_t block) {
-                                (*static_cast<F*>(object))(thread, block);
-                              }});
+  detail::run_blocks(blocks, {const_cast<std::remove_const_t<F>*>(&function), detail::call_object<F, std::size_t, std::size_t>});
 }
 
 /// zero + function(row) of all rows, added up by blocks, and the blocks in their order: the same bits for any number of threads.
