@@ -96,8 +96,10 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
   }
   /// Accelerations and rates from the records as they are.
   void gather_all(double time, double dt) {
-    gather_strains();
-    begin_memories<false>(dt);
+    if constexpr (Base::has_bonds) {
+      gather_strains();
+      begin_memories<false>(dt);
+    }
     for_each_group([&](auto& g) { gather<false>(g, time, dt); });
   }
   /// Sub-stepped bonds alone, at the end of a sub-step of `dt`; of the groups at their ends only those that have moved are packed again.
@@ -297,7 +299,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
         const std::size_t end = g.blocks.end(block);
         [[maybe_unused]] const double inverse_mass = 1.0 / g.mass;
         [[maybe_unused]] const auto add = g.sums.adder();
-        if constexpr (C::has_records) sum_all_bonds<Fast>(g, block, add);
+        if constexpr (C::has_bonds) sum_all_bonds<Fast>(g, block, add);
         for (std::size_t i = g.blocks.begin(block); i < end; ++i) {
           View<Dim, double, typename C::writes> total;
           if constexpr (C::has_records) {

@@ -72,7 +72,7 @@ template <int Dim, bool KeepsRates, class Precision, class... Item>
 class Model {
  public:
   using Groups = typename detail::Groups<detail::filter<detail::IsGroup, Item...>, KeepsRates, Precision, Item...>::type;
-  static constexpr bool has_pairs = (is_interaction<Item> || ...);
+  static constexpr bool has_pairs = (is_interaction<Item> || ...), has_bonds = (is_bonds<Item> || ...);
   static constexpr bool bonds_break = [] {
     return ([] {
       if constexpr (is_bonds<Item>) return bond::CanBreak<decltype(Item::law)>;
@@ -110,8 +110,8 @@ class Model {
       if constexpr (is_material<I>) set_constants(active.item);
       if constexpr (is_summed<I>) check_summed(active.item);
     });
-    check_dispersion();
-    prepare_exclusions();
+    if constexpr (has_bonds) check_dispersion();
+    if constexpr (has_bonds && has_pairs) prepare_exclusions();
   }
 
   template <class Tag>
@@ -227,9 +227,11 @@ class Model {
   }
   /// Pairs that were left out because of bonds that have broken since are pairs again.
   void renew_exclusions() {
-    if (!exclusions_are_worn()) return;
-    whole_bonds_ = whole_bonds();
-    prepare_exclusions();
+    if constexpr (has_pairs && bonds_break)
+      if (exclusions_are_worn()) {
+        whole_bonds_ = whole_bonds();
+        prepare_exclusions();
+      }
   }
 
   geometry::Box<Dim> box_;
