@@ -182,15 +182,14 @@ struct BlockFunction {
 };
 inline void run_blocks(const Blocks& blocks, BlockFunction function) {
   const std::size_t ranges = blocks.ranges().size();
-  struct alignas(64) Next {  // no two threads share a cache line until one is done
-    std::atomic<std::size_t> block;
-  };
-  std::vector<Next> next(ranges);
-  for (std::size_t range = 0; range < ranges; ++range) next[range].block = blocks.first_block(range);
+  constexpr std::size_t apart = 64 / sizeof(std::size_t);  // no two threads share a cache line until one is done
+  std::vector<std::size_t> next(apart * ranges);
+  for (std::size_t range = 0; range < ranges; ++range) next[apart * range] = blocks.first_block(range);
   for_each_range(blocks.ranges(), [&](std::size_t thread, std::size_t, std::size_t) {
     for (std::size_t k = 0; k < ranges; ++k) {
       const std::size_t range = (thread + k) % ranges, end = blocks.first_block(range + 1);
-      for (std::size_t block; (block = next[range].block.fetch_add(1, std::memory_order_relaxed)) < end;)
+      const std::atomic_ref<std::size_t> first(next[apart * range]);
+      for (std::size_t block; (block = first.fetch_add(1, std::memory_order_relaxed)) < end;)
         function.call(function.object, thread, block);
     }
   });

@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -280,22 +282,15 @@ void check_stated_rates(const Engine& engine, const Item& item) {
 template <class Integrator, class Engine>
 [[nodiscard]] sweep::StepLimit find_step_limit(const Engine& engine, double time, bool without_substepped) {
   sweep::StepLimit limit;
-  std::vector<sweep::StepState> states;
-  engine.for_each_group([&](const auto& g) { states.push_back(detail::state_of<Integrator>(engine, g)); });
-  std::vector<detail::PairRates> rates(states.size());
-  const auto index_of = [&]<class Tag>(std::type_identity<Tag>) {
-    std::size_t index = 0, found = 0;
-    engine.for_each_group([&](const auto& g) {
-      if (std::is_same_v<typename std::remove_cvref_t<decltype(g)>::Tag, Tag>) found = index;
-      ++index;
-    });
-    return found;
-  };
+  std::array<sweep::StepState, Engine::Groups::count> states;
+  std::array<detail::PairRates, Engine::Groups::count> rates;
+  std::size_t index = 0;
+  engine.for_each_group([&](const auto& g) { states[index++] = detail::state_of<Integrator>(engine, g); });
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     detail::check_stated_rates(engine, active.item);
     if constexpr (is_interaction<I>) {
-      const std::size_t a = index_of(std::type_identity<typename I::A>{}), b = index_of(std::type_identity<typename I::B>{});
+      constexpr std::size_t a = Engine::template index_of<typename I::A>(), b = Engine::template index_of<typename I::B>();
       limit.damping = limit.oscillation = limit.sound = 0.0;
       active.item.laws.for_each([&](const auto& law) {
         if constexpr (requires { law.step_limits(states[a], states[b], limit); }) law.step_limits(states[a], states[b], limit);
@@ -308,7 +303,7 @@ template <class Integrator, class Engine>
       }
     }
   });
-  std::size_t index = 0;
+  index = 0;
   engine.for_each_group([&](const auto& g) {
     detail::limit_group<Integrator>(engine, g, time, without_substepped ? detail::BondKind::slow : detail::BondKind::all, rates[index++],
                                     limit);

@@ -114,6 +114,18 @@ class Model {
     if constexpr (has_bonds && has_pairs) prepare_exclusions();
   }
 
+  /// Which group, in the order of declaration.
+  template <class Tag>
+  static consteval std::size_t index_of() {
+    constexpr std::size_t found = []<class Indices, class... G>(std::type_identity<dmp::detail::ValuesAt<Indices, G...>>) consteval {
+      std::size_t index = 0, result = sizeof...(G);
+      ((result = std::is_same_v<Tag, typename G::Tag> ? index : result, ++index), ...);
+      return result;
+    }
+    (std::type_identity<Groups>{});
+    static_assert(found < Groups::count, "dmp: an item of the scene names a group that the scene does not hold");
+    return found;
+  }
   template <class Tag>
   [[nodiscard]] auto& group() noexcept {
     return groups_.template get<index_of<Tag>()>();
@@ -191,18 +203,6 @@ class Model {
   static constexpr bool evolves = std::remove_cvref_t<G>::Mobility::evolves;
   template <class G>
   static constexpr bool mobile = particles::is_mobile<typename std::remove_cvref_t<G>::Mobility>;
-
-  template <class Tag>
-  static consteval std::size_t index_of() {
-    constexpr std::size_t found = []<class Indices, class... G>(std::type_identity<dmp::detail::ValuesAt<Indices, G...>>) consteval {
-      std::size_t index = 0, result = sizeof...(G);
-      ((result = std::is_same_v<Tag, typename G::Tag> ? index : result, ++index), ...);
-      return result;
-    }
-    (std::type_identity<Groups>{});
-    static_assert(found < Groups::count, "dmp: an item of the scene names a group that the scene does not hold");
-    return found;
-  }
 
   [[nodiscard]] const auto& items() const noexcept { return items_; }
 
