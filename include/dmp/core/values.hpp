@@ -20,7 +20,7 @@ struct ValuesAt<std::index_sequence<Index...>, T...> : ValueAt<Index, T>... {
     return at<I>(*this);
   }
   template <std::size_t I>
-  [[nodiscard]] constexpr const auto& get() const noexcept {
+  [[nodiscard]] constexpr decltype(auto) get() const noexcept {
     return at<I>(*this);
   }
   /// Calls function(value) for every value, in order, in the caller's own loop.
