@@ -39,7 +39,10 @@ class Columns<Dim, Fields<Field...>> : detail::Column<Dim, Field>... {
   [[nodiscard]] const AlignedVector<Value<Dim, F>>& get() const noexcept {
     return detail::Column<Dim, F>::values;
   }
-  void resize(std::size_t count) { (resize_one(get<Field>(), count), ...); }
+  void resize(std::size_t count) {
+    const Ranges ranges(count);
+    (resize_one(get<Field>(), count, ranges), ...);
+  }
 
   /// Moves row order[k] to row k, for all columns; `order` is a permutation of 0 .. count - 1, `scratch` has room for count vectors.
   void permute(std::span<const std::uint32_t> order, const Ranges& ranges, double* scratch) {
@@ -48,10 +51,10 @@ class Columns<Dim, Fields<Field...>> : detail::Column<Dim, Field>... {
 
  private:
   template <class V>
-  static void resize_one(AlignedVector<V>& values, std::size_t count) {
+  static void resize_one(AlignedVector<V>& values, std::size_t count, const Ranges& ranges) {
     const std::size_t old = std::min(values.size(), count);
     values.resize(count);
-    for_each_range(Ranges(count),
+    for_each_range(ranges,
                    [&values, old](std::size_t, std::size_t first, std::size_t last) {  // each thread places its rows in memory
                      if (last <= old) return;
                      first = std::max(first, old);

@@ -212,9 +212,11 @@ inline void write_checkpoint(const std::string& path, const std::string& signatu
           "group " + fault.group + ", particle " + std::to_string(fault.particle) + ": " + fault.field + " " + fault.what,
           to_text(fault.value));
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (std::size_t c = 0; c < groups[g].columns.size(); ++c)
-      std::ranges::copy(found[g].columns[c].values, groups[g].columns[c].values.begin());
-    std::ranges::copy(found[g].id, groups[g].id.begin());
+    for (std::size_t c = 0; c < groups[g].columns.size(); ++c) {
+      const auto values = found[g].columns[c].values;
+      std::copy_n(values.data(), values.size(), groups[g].columns[c].values.data());
+    }
+    std::copy_n(found[g].id.data(), found[g].id.size(), groups[g].id.data());
   }
   return clock;
 }
