@@ -87,7 +87,8 @@ inline void run_ranges(const Ranges& ranges, RangeFunction function) {
 template <class Function>
 void for_each_range(const Ranges& ranges, Function&& function) {
   using F = std::remove_reference_t<Function>;
-  detail::run_ranges(ranges, {const_cast<std::remove_const_t<F>*>(&function), detail::call_object<F, std::size_t, std::size_t, std::size_t>});
+  detail::run_ranges(ranges, {const_cast<std::remove_const_t<F>*>(&function),
+                              detail::call_object<F, std::size_t, std::size_t, std::size_t>});
 }
 
 /// The largest of function(first row, one past the last row) over all ranges, by `merge(a, b)`, which must not depend on the order.

@@ -61,15 +61,17 @@ inline void check_options(const RunOptions& options, const Clock& clock) {
 /// A step that the user gave must stay within the bounds as they change.
 inline void check_given_step(const Clock& clock, const sweep::StepLimit& limit) {
   if (clock.time_step > limit.stable_time_step)
-    throw failure(
-        "the given time step is longer than " + to_text(limit.stable_time_step) + " s, by now the bound of " + limit.stability_bound_by, clock);
+    throw failure("the given time step is longer than " + to_text(limit.stable_time_step) + " s, by now the bound of " +
+                      limit.stability_bound_by,
+                  clock);
 }
 /// What set the step of a run.
 [[nodiscard]] inline std::string step_bound(const RunOptions& options, const RunReport& report) {
   if (options.time_step == 0.0) return report.limit.bound_by;
   const auto share_of = [&report](double bound) { return to_text(std::round(100.0 * report.time_step / bound)) + " %"; };
   std::string text = "given, " + share_of(report.limit.stable_time_step) + " of the bound of " + report.limit.stability_bound_by;
-  if (options.time_step > report.limit.time_step) text += ", " + share_of(report.limit.time_step) + " of what resolves " + report.limit.bound_by;
+  if (options.time_step > report.limit.time_step)
+    text += ", " + share_of(report.limit.time_step) + " of what resolves " + report.limit.bound_by;
   return text;
 }
 }  // namespace detail
