@@ -103,8 +103,11 @@ Sample observe(const Scene& scene, const Dam<Dim>& dam, const eos::Tait& eos) {
     sample.heaviest = std::max(sample.heaviest, deviation);
     sample.variation += deviation * deviation / static_cast<double>(water.size());
     if (!around.contains(x)) ++sample.escaped;
-    for (std::size_t k = 0; k < dam.gauges.size(); ++k)
-      if ((x - dam.gauges[k]).template head<up>().cwiseAbs().maxCoeff() < half) sample.levels[k] += water.mass / rho / std::pow(2.0 * half, up);
+    for (std::size_t k = 0; k < dam.gauges.size(); ++k) {
+      bool is_read = true;
+      for (int d = 0; d < up; ++d) is_read = is_read && std::abs(x[d] - dam.gauges[k][d]) < half;
+      if (is_read) sample.levels[k] += water.mass / rho / std::pow(2.0 * half, up);
+    }
   }
   sample.variation = std::sqrt(sample.variation);
   const auto& wall = scene.template group<Wall>();

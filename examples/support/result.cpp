@@ -5,7 +5,6 @@
 #include <exception>
 #include <fstream>
 #include <stdexcept>
-#include <utility>
 #include <dmp/core/require.hpp>
 
 namespace example {
@@ -27,8 +26,8 @@ bool within(const Result::Error& error) { return std::fabs(error.value) <= error
 
 }  // namespace
 
-void Result::error(std::string name, double value, double bound, std::string reference) {
-  errors.push_back({std::move(name), value, bound, std::move(reference)});
+void Result::error(std::string_view name, double value, double bound, std::string_view reference) {
+  errors.push_back({std::string(name), value, bound, std::string(reference)});
 }
 
 bool Result::holds() const {

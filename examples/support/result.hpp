@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 #include <dmp/io/output_folder.hpp>
@@ -32,7 +33,7 @@ struct Result {
   std::vector<Error> errors{};
 
   /// Notes that |value| should be <= bound, and where the reference comes from.
-  void error(std::string name, double value, double bound, std::string reference);
+  void error(std::string_view name, double value, double bound, std::string_view reference);
 
   /// Adds what a run (RunReport) took.
   template <class Report>

@@ -49,6 +49,10 @@ class Ranges {
 };
 
 namespace detail {
+template <class F, class... Number>
+void call_object(void* object, Number... number) {
+  (*static_cast<F*>(object))(number...);
+}
 /// A function of a range without its type: what a loop does is compiled once, not once for each way to run it.
 struct RangeFunction {
   void* object;
@@ -83,10 +87,8 @@ inline void run_ranges(const Ranges& ranges, RangeFunction function) {
 template <class Function>
 void for_each_range(const Ranges& ranges, Function&& function) {
   using F = std::remove_reference_t<Function>;
-  detail::run_ranges(
-      ranges, {const_cast<std::remove_const_t<F>*>(&function), [](void* object, std::size_t range, std::size_t first, std::size_t last) {
-                 (*static_cast<F*>(object))(range, first, last);
-               }});
+  detail::run_ranges(ranges, {const_cast<std::remove_const_t<F>*>(&function),
+                              detail::call_object<F, std::size_t, std::size_t, std::size_t>});
 }
 
 /// The largest of function(first row, one past the last row) over all ranges, by `merge(a, b)`, which must not depend on the order.
@@ -173,22 +175,34 @@ class Blocks {
   Ranges ranges_;
 };
 
+namespace detail {
+/// A function of a block without its type.
+struct BlockFunction {
+  void* object;
+  void (*call)(void* object, std::size_t thread, std::size_t block);
+};
+inline void run_blocks(const Blocks& blocks, BlockFunction function) {
+  const std::size_t ranges = blocks.ranges().size();
+  constexpr std::size_t apart = 64 / sizeof(std::size_t);  // no two threads share a cache line until one is done
+  std::vector<std::size_t> next(apart * ranges);
+  for (std::size_t range = 0; range < ranges; ++range) next[apart * range] = blocks.first_block(range);
+  for_each_range(blocks.ranges(), [&](std::size_t thread, std::size_t, std::size_t) {
+    for (std::size_t k = 0; k < ranges; ++k) {
+      const std::size_t range = (thread + k) % ranges, end = blocks.first_block(range + 1);
+      const std::atomic_ref<std::size_t> first(next[apart * range]);
+      for (std::size_t block; (block = first.fetch_add(1, std::memory_order_relaxed)) < end;)
+        function.call(function.object, thread, block);
+    }
+  });
+}
+}  // namespace detail
+
 /// Calls function(thread, block) for every block. Each thread begins with the blocks of its own range, one after the other, and takes over
 /// what others have not begun when it is done: cores are not equally fast at all times.
 template <class Function>
 void for_each_block(const Blocks& blocks, Function&& function) {
-  const std::size_t ranges = blocks.ranges().size();
-  struct alignas(64) Next {  // no two threads share a cache line until one is done
-    std::atomic<std::size_t> block;
-  };
-  std::vector<Next> next(ranges);
-  for (std::size_t range = 0; range < ranges; ++range) next[range].block = blocks.first_block(range);
-  for_each_range(blocks.ranges(), [&](std::size_t thread, std::size_t, std::size_t) {
-    for (std::size_t k = 0; k < ranges; ++k) {
-      const std::size_t range = (thread + k) % ranges, end = blocks.first_block(range + 1);
-      for (std::size_t block; (block = next[range].block.fetch_add(1, std::memory_order_relaxed)) < end;) function(thread, block);
-    }
-  });
+  using F = std::remove_reference_t<Function>;
+  detail::run_blocks(blocks, {const_cast<std::remove_const_t<F>*>(&function), detail::call_object<F, std::size_t, std::size_t>});
 }
 
 /// zero + function(row) of all rows, added up by blocks, and the blocks in their order: the same bits for any number of threads.

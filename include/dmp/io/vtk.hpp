@@ -61,32 +61,40 @@ inline constexpr const char* vtk_byte_order = std::endian::native == std::endian
 /// The appended data of a VTK file: blocks of a 64-bit byte count and the bytes, found by their offset from the first one.
 class AppendedBlocks {
  public:
-  /// The <DataArray> of a block, which write() must then write in the same order.
-  template <class T>
-  std::string announce(std::string_view name, std::size_t tuples, int components) {
-    std::string element = "        <DataArray type=\"" + vtk_type<T>() + "\" Name=\"" + xml_escaped(name) + "\" NumberOfComponents=\"" +
-                          std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
-    offset_ += sizeof(std::uint64_t) + tuples * static_cast<std::size_t>(components) * sizeof(T);
+  /// The <DataArray> of a block of numbers of a type with `bytes` each, which write() must then write in the same order.
+  std::string announce(std::string_view type, std::size_t bytes, std::string_view name, std::size_t tuples, int components = 1) {
+    std::string element = "        <DataArray type=\"";
+    element.append(type).append("\" Name=\"").append(xml_escaped(name)).append("\" NumberOfComponents=\"");
+    element.append(std::to_string(components)).append("\" format=\"appended\" offset=\"").append(std::to_string(offset_)).append("\"/>\n");
+    offset_ += sizeof(std::uint64_t) + tuples * static_cast<std::size_t>(components) * bytes;
     return element;
   }
-  template <class T>
-  static void write(WholeFile& file, std::span<const T> values) {
-    const std::uint64_t bytes = values.size_bytes();
+  static void write(WholeFile& file, std::span<const std::byte> values) {
+    const std::uint64_t bytes = values.size();
     file.write(&bytes, sizeof bytes);
-    file.write(values.data(), values.size_bytes());
+    file.write(values.data(), values.size());
   }
 
  private:
   std::uint64_t offset_ = 0;
 };
 
-template <int Dim, class Id>
-void require_consistent(const std::filesystem::path& path, const PointCloud<Dim, Id>& cloud) {
+/// A PointCloud without its types: `dimension` coordinates per point, and ids as bytes.
+struct Points {
+  std::size_t count;
+  int dimension;
+  std::span<const double> coordinates;
+  std::size_t ids;  // as many as points, or none
+  std::string id_type;
+  std::span<const std::byte> id_bytes;
+  const std::vector<PointData>& data;
+};
+
+inline void require_consistent(const std::filesystem::path& path, const Points& cloud) {
   const std::string who = "io::write_vtp: " + quoted(path) + ": ";
-  const std::size_t points = cloud.positions.size();
-  if (!cloud.ids.empty() && cloud.ids.size() != points)
-    throw ParameterError(who + "ids must be as many as the " + std::to_string(points) + " positions, got " +
-                         std::to_string(cloud.ids.size()));
+  const std::size_t points = cloud.count;
+  if (cloud.ids > 0 && cloud.ids != points)
+    throw ParameterError(who + "ids must be as many as the " + std::to_string(points) + " positions, got " + std::to_string(cloud.ids));
   std::vector<std::string_view> names{"id"};
   for (const PointData& data : cloud.data) {
     if (data.name.empty() || !fits_xml(data.name))
@@ -105,6 +113,50 @@ void require_consistent(const std::filesystem::path& path, const PointCloud<Dim,
 
 [[nodiscard]] constexpr int components_written(int components) noexcept { return components == 2 ? 3 : components; }
 
+inline void write_points(const std::filesystem::path& path, const Points& cloud) {
+  require_consistent(path, cloud);
+  const std::size_t points = cloud.count;
+  const std::string count = std::to_string(points);
+  AppendedBlocks blocks;
+  std::string head = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"") + vtk_byte_order +
+                     "\" header_type=\"UInt64\">\n  <PolyData>\n    <Piece NumberOfPoints=\"" + count + "\" NumberOfVerts=\"" + count +
+                     "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n";
+  head += "      <PointData>\n";
+  if (cloud.ids > 0) head += blocks.announce(cloud.id_type, cloud.id_bytes.size() / points, "id", points);
+  const auto numbers = [&blocks, points](std::string_view name, int components) {
+    return blocks.announce("Float64", sizeof(double), name, points, components_written(components));
+  };
+  for (const PointData& data : cloud.data) head += numbers(data.name, data.components);
+  head += "      </PointData>\n      <Points>\n";
+  head += numbers("Points", 3);
+  head += "      </Points>\n      <Verts>\n";
+  for (const char* const name : {"connectivity", "offsets"}) head += blocks.announce("Int64", sizeof(std::int64_t), name, points);
+  head += "      </Verts>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
+
+  WholeFile file(path);
+  file.write(head);
+  if (cloud.ids > 0) blocks.write(file, cloud.id_bytes);
+  std::vector<double> padded(3 * points);
+  const auto write_padded = [&](std::span<const double> values, int components) {
+    const auto given = static_cast<std::size_t>(components);
+    for (std::size_t i = 0; i < points; ++i)
+      for (std::size_t d = 0; d < 3; ++d) padded[3 * i + d] = d < given ? values[given * i + d] : 0.0;
+    blocks.write(file, std::as_bytes(std::span(padded)));
+  };
+  for (const PointData& data : cloud.data) {
+    if (data.components == 2) write_padded(data.values, 2);
+    else blocks.write(file, std::as_bytes(data.values));
+  }
+  write_padded(cloud.coordinates, cloud.dimension);
+  std::vector<std::int64_t> index(points);
+  for (const std::int64_t first : {0, 1}) {  // connectivity 0, 1, ...; offsets, the end of each vertex in it, 1, 2, ...
+    for (std::size_t i = 0; i < points; ++i) index[i] = static_cast<std::int64_t>(i) + first;
+    blocks.write(file, std::as_bytes(std::span(index)));
+  }
+  file.write("\n  </AppendedData>\n</VTKFile>\n");
+  file.commit();
+}
+
 }  // namespace detail
 
 /// Writes points for ParaView: VTK XML PolyData (.vtp), version 1.0, raw appended binary data, one vertex per point. The file is there
@@ -112,49 +164,9 @@ void require_consistent(const std::filesystem::path& path, const PointCloud<Dim,
 ///   write_vtp(results / "water_0001.vtp", PointCloud<2>{.positions = x, .ids = id, .data = {{.name = "density", .values = rho}}});
 template <int Dim, class Id>
 void write_vtp(const std::filesystem::path& path, const PointCloud<Dim, Id>& cloud) {
-  detail::require_consistent(path, cloud);
-  const std::size_t points = cloud.positions.size();
-  const std::string count = std::to_string(points);
-  detail::AppendedBlocks blocks;
-  std::string head = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"") +
-                     detail::vtk_byte_order + "\" header_type=\"UInt64\">\n  <PolyData>\n    <Piece NumberOfPoints=\"" + count +
-                     "\" NumberOfVerts=\"" + count + "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n";
-  head += "      <PointData>\n";
-  if (!cloud.ids.empty()) head += blocks.announce<Id>("id", points, 1);
-  for (const PointData& data : cloud.data) head += blocks.announce<double>(data.name, points, detail::components_written(data.components));
-  head += "      </PointData>\n      <Points>\n";
-  head += blocks.announce<double>("Points", points, 3);
-  head += "      </Points>\n      <Verts>\n";
-  head += blocks.announce<std::int64_t>("connectivity", points, 1);
-  head += blocks.announce<std::int64_t>("offsets", points, 1);
-  head += "      </Verts>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
-
-  detail::WholeFile file(path);
-  file.write(head);
-  if (!cloud.ids.empty()) blocks.write(file, cloud.ids);
-  std::vector<double> padded(3 * points);
-  for (const PointData& data : cloud.data) {
-    if (data.components != 2) {
-      blocks.write(file, data.values);
-      continue;
-    }
-    for (std::size_t i = 0; i < points; ++i) {
-      padded[3 * i] = data.values[2 * i];
-      padded[3 * i + 1] = data.values[2 * i + 1];
-      padded[3 * i + 2] = 0.0;
-    }
-    blocks.write(file, std::span<const double>(padded));
-  }
-  for (std::size_t i = 0; i < points; ++i)
-    for (int d = 0; d < 3; ++d) padded[3 * i + static_cast<std::size_t>(d)] = d < Dim ? cloud.positions[i][d] : 0.0;
-  blocks.write(file, std::span<const double>(padded));
-  std::vector<std::int64_t> index(points);
-  for (const std::int64_t first : {0, 1}) {  // connectivity 0, 1, ...; offsets, the end of each vertex in it, 1, 2, ...
-    for (std::size_t i = 0; i < points; ++i) index[i] = static_cast<std::int64_t>(i) + first;
-    blocks.write(file, std::span<const std::int64_t>(index));
-  }
-  file.write("\n  </AppendedData>\n</VTKFile>\n");
-  file.commit();
+  const std::span<const double> coordinates(reinterpret_cast<const double*>(cloud.positions.data()), Dim * cloud.positions.size());
+  detail::write_points(path, {cloud.positions.size(), Dim, coordinates, cloud.ids.size(), detail::vtk_type<Id>(), std::as_bytes(cloud.ids),
+                              cloud.data});
 }
 
 /// The index of a run's files by time (.pvd), which ParaView opens as one animation of all groups. It is rewritten whole after each

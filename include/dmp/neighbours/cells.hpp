@@ -63,7 +63,8 @@ struct Cells {
         });
     if (size == 0) return;
     lower = all.lower;
-    const Vector<Dim> extent = (all.upper - all.lower).cwiseMax(0.0);
+    Vector<Dim> extent;
+    for (int d = 0; d < Dim; ++d) extent[d] = std::max(0.0, all.upper[d] - all.lower[d]);
     const auto cells_of = [&](double w) {
       double total = 1.0;
       for (int d = 0; d < Dim; ++d) total *= std::max(1.0, std::floor(extent[d] / w));

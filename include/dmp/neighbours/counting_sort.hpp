@@ -20,6 +20,19 @@ class CountingSort {
     for_each_range(Ranges(count), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t row = first; row < last; ++row) key_[row] = static_cast<std::uint32_t>(key(row));
     });
+    place_rows(count, keys);
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> rows() const noexcept { return {rows_.data(), count_}; }
+  static constexpr std::size_t readable_beyond = 32;  ///< entries after the last row, for whole vector registers
+  /// Rows of key k are rows()[begin(k)] .. rows()[begin(k + 1) - 1].
+  [[nodiscard]] std::size_t begin(std::size_t k) const noexcept { return start_[k]; }
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return (key_.capacity() + start_.capacity() + rows_.capacity()) * sizeof(std::uint32_t);
+  }
+
+ private:
+  void place_rows(std::size_t count, std::size_t keys) {
     start_.assign(keys + 2, 0);
     resize_with_margin(rows_, count + readable_beyond);
     std::fill(rows_.end() - readable_beyond, rows_.end(), 0u);
@@ -42,15 +55,6 @@ class CountingSort {
     });
   }
 
-  [[nodiscard]] std::span<const std::uint32_t> rows() const noexcept { return {rows_.data(), count_}; }
-  static constexpr std::size_t readable_beyond = 32;  ///< entries after the last row, for whole vector registers
-  /// Rows of key k are rows()[begin(k)] .. rows()[begin(k + 1) - 1].
-  [[nodiscard]] std::size_t begin(std::size_t k) const noexcept { return start_[k]; }
-  [[nodiscard]] std::size_t bytes() const noexcept {
-    return (key_.capacity() + start_.capacity() + rows_.capacity()) * sizeof(std::uint32_t);
-  }
-
- private:
   std::vector<std::uint32_t> key_, start_{0, 0}, rows_;
   std::size_t count_ = 0;
 };

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <dmp/core/aligned.hpp>
 #include <dmp/core/field.hpp>
@@ -16,24 +15,34 @@ namespace dmp::particles {
 template <int Dim, class Field>
 using Value = std::conditional_t<Field::is_vector, Vector<Dim>, double>;
 
+namespace detail {
+template <int Dim, class Field>
+struct Column {
+  AlignedVector<Value<Dim, Field>> values;
+};
+}  // namespace detail
+
 /// Structure-of-arrays store: one column per field, all of one length, nothing else.
 template <int Dim, class List>
 class Columns;
 template <int Dim, class... Field>
-class Columns<Dim, Fields<Field...>> {
+class Columns<Dim, Fields<Field...>> : detail::Column<Dim, Field>... {
  public:
   using List = Fields<Field...>;
   static constexpr std::size_t bytes_per_particle = (std::size_t{0} + ... + sizeof(Value<Dim, Field>));
 
   template <class F>
   [[nodiscard]] AlignedVector<Value<Dim, F>>& get() noexcept {
-    return std::get<Column<F>>(columns_).values;
+    return detail::Column<Dim, F>::values;
   }
   template <class F>
   [[nodiscard]] const AlignedVector<Value<Dim, F>>& get() const noexcept {
-    return std::get<Column<F>>(columns_).values;
+    return detail::Column<Dim, F>::values;
   }
-  void resize(std::size_t count) { (resize_one(get<Field>(), count), ...); }
+  void resize(std::size_t count) {
+    const Ranges ranges(count);
+    (resize_one(get<Field>(), count, ranges), ...);
+  }
 
   /// Moves row order[k] to row k, for all columns; `order` is a permutation of 0 .. count - 1, `scratch` has room for count vectors.
   void permute(std::span<const std::uint32_t> order, const Ranges& ranges, double* scratch) {
@@ -41,15 +50,11 @@ class Columns<Dim, Fields<Field...>> {
   }
 
  private:
-  template <class F>
-  struct Column {
-    AlignedVector<Value<Dim, F>> values;
-  };
   template <class V>
-  static void resize_one(AlignedVector<V>& values, std::size_t count) {
+  static void resize_one(AlignedVector<V>& values, std::size_t count, const Ranges& ranges) {
     const std::size_t old = std::min(values.size(), count);
     values.resize(count);
-    for_each_range(Ranges(count),
+    for_each_range(ranges,
                    [&values, old](std::size_t, std::size_t first, std::size_t last) {  // each thread places its rows in memory
                      if (last <= old) return;
                      first = std::max(first, old);
@@ -67,8 +72,6 @@ class Columns<Dim, Fields<Field...>> {
       for (std::size_t k = first; k < last; ++k) values[k] = copy[order[k]];
     });
   }
-
-  std::tuple<Column<Field>...> columns_;
 };
 
 }  // namespace dmp::particles

@@ -60,9 +60,7 @@ template <class Particle, class... Field>
 /// Throws SimulationError with time, particle, field and value.
 template <int Dim, class... Rest>
 void check_state(Engine<Dim, Rest...>& engine, const Clock& clock) {
-  const Fault found = find_fault(engine);
-  if (!found.what.empty())
-    throw SimulationError("a value " + found.what, {clock.time, clock.step, found.group, found.particle, found.field, found.value});
+  require_none(find_fault(engine), clock);
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_bonds<I>) {
@@ -113,27 +111,23 @@ void check_materials_at_start(const Engine<Dim, Rest...>& engine) {
   });
 }
 
+namespace detail {
+inline void check_support(const std::string& a, const std::string& b, double spacing, double cutoff) {
+  if (cutoff < (1.0 - 1e-9) * spacing)
+    throw ParameterError("scene: support radius (cut-off) of " + a + " and " + b + " must be >= their spacing " + to_text(spacing) +
+                         " m, got " + to_text(cutoff));
+}
+}  // namespace detail
 /// Names, values, places and supports, before anything is computed. Throws ParameterError.
 template <int Dim, class... Rest>
 void check_input(Engine<Dim, Rest...>& engine) {
-  const auto groups = views_of(engine);
-  for (std::size_t a = 0; a < groups.size(); ++a)
-    for (std::size_t b = a + 1; b < groups.size(); ++b)
-      if (groups[a].name == groups[b].name)
-        throw ParameterError("scene: the names of groups must differ, got " + groups[a].name + " twice");
-  const Fault found = find_fault(engine);
-  if (!found.what.empty())
-    throw ParameterError("scene: group " + found.group + ", particle " + std::to_string(found.particle) + ": " + found.field + " " +
-                         found.what + ", got " + to_text(found.value));
+  check_groups(views_of(engine), find_fault(engine));
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     if constexpr (is_interaction<I>) {
       const auto& a = engine.template group<typename I::A>();
       const auto& b = engine.template group<typename I::B>();
-      const double spacing = std::max(a.spacing, b.spacing);
-      if (active.item.cutoff() < (1.0 - 1e-9) * spacing)
-        throw ParameterError("scene: support radius (cut-off) of " + a.name + " and " + b.name + " must be >= their spacing " +
-                             to_text(spacing) + " m, got " + to_text(active.item.cutoff()));
+      detail::check_support(a.name, b.name, std::max(a.spacing, b.spacing), active.item.cutoff());
     }
     if constexpr (is_confined<I>)
       for (const auto& plane : active.item.planes)

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -176,7 +175,7 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
     });
   }
 
-  std::array<Work, std::tuple_size_v<typename Base::Groups>> work_;
+  std::array<Work, Base::Groups::count> work_;
   bool converged_ = true, walls_move_ = true;
 };
 

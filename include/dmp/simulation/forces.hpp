@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -97,8 +96,10 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
   }
   /// Accelerations and rates from the records as they are.
   void gather_all(double time, double dt) {
-    gather_strains();
-    begin_memories<false>(dt);
+    if constexpr (Base::has_bonds) {
+      gather_strains();
+      begin_memories<false>(dt);
+    }
     for_each_group([&](auto& g) { gather<false>(g, time, dt); });
   }
   /// Sub-stepped bonds alone, at the end of a sub-step of `dt`; of the groups at their ends only those that have moved are packed again.
@@ -210,15 +211,12 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
     for_each_item([&](const auto& active) __attribute__((always_inline)) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_interaction<I>)
-        std::apply(
-            [&](const auto&... law) __attribute__((always_inline)) {
-              if constexpr (std::is_same_v<Tag, typename I::A>)
-                pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add,
-                                                                         law...);
-              else if constexpr (std::is_same_v<Tag, typename I::B>)
-                pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
-            },
-            active.item.laws);
+        active.item.laws.apply([&](const auto&... law) __attribute__((always_inline)) {
+          if constexpr (std::is_same_v<Tag, typename I::A>)
+            pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add, law...);
+          else if constexpr (std::is_same_v<Tag, typename I::B>)
+            pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
+        });
     });
   }
   /// Forces of the bonds of one phase on the particles of a block, in their rows of sums: of all before one is taken, since a bond within
@@ -301,7 +299,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
         const std::size_t end = g.blocks.end(block);
         [[maybe_unused]] const double inverse_mass = 1.0 / g.mass;
         [[maybe_unused]] const auto add = g.sums.adder();
-        if constexpr (C::has_records) sum_all_bonds<Fast>(g, block, add);
+        if constexpr (C::has_bonds) sum_all_bonds<Fast>(g, block, add);
         for (std::size_t i = g.blocks.begin(block); i < end; ++i) {
           View<Dim, double, typename C::writes> total;
           if constexpr (C::has_records) {
@@ -338,7 +336,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
       if constexpr (is_forced<I>)
         if constexpr (I::template concerns<typename G::Tag>) {
           const auto seen = this->subject(g, i, time, dt);
-          std::apply([&](const auto&... law) { ((result += to_vector<Dim>(law.acceleration(seen))), ...); }, active.item.laws);
+          active.item.laws.apply([&](const auto&... law) { ((result += to_vector<Dim>(law.acceleration(seen))), ...); });
         }
     });
     return result;

@@ -14,6 +14,7 @@
 #include <dmp/bond/kelvin_voigt.hpp>
 #include <dmp/core/field.hpp>
 #include <dmp/core/require.hpp>
+#include <dmp/core/values.hpp>
 #include <dmp/forcing/concept.hpp>
 #include <dmp/forcing/contact_plane.hpp>
 #include <dmp/geometry/fill.hpp>
@@ -61,7 +62,7 @@ struct Interaction {
   using reads = unite<typename Law::reads...>;
   using writes = unite<typename Law::writes...>;
   static constexpr bool uses_velocity = (Law::uses_velocity || ...), collides = (sweep::is_potential<Law> || ...);
-  std::tuple<Law...> laws;
+  Values<Law...> laws;
   int excluded_reach = 0;
 
   /// Leaves out pairs that are joined by up to `reach` bonds (LAMMPS' default special_bonds is 3).
@@ -71,7 +72,7 @@ struct Interaction {
     return std::move(*this);
   }
   [[nodiscard]] double cutoff() const {
-    return std::apply([](const auto&... law) { return std::max({law.cutoff()...}); }, laws);
+    return laws.apply([](const auto&... law) { return std::max({law.cutoff()...}); });
   }
 };
 template <class A, class B, class... Law>
@@ -79,7 +80,7 @@ template <class A, class B, class... Law>
   static_assert(sizeof...(Law) > 0, "dmp: interaction<A, B>(...) needs at least one pair law");
   (check_parameters(law), ...);
   (require_positive("interaction: cut-off of a law", sweep::as_pair_law(law).cutoff(), "m"), ...);
-  return Interaction<A, B, decltype(sweep::as_pair_law(law))...>{{sweep::as_pair_law(law)...}};
+  return Interaction<A, B, decltype(sweep::as_pair_law(law))...>{{{sweep::as_pair_law(law)}...}};
 }
 
 /// Kelvin-Voigt bonds as forces see them: springs. What their dashpots do, which may be too stiff for forces, is in dashpots.hpp.
@@ -141,13 +142,13 @@ template <class... Tag, class... Law>
 struct Material<std::tuple<Tag...>, Law...> {
   template <class G>
   static constexpr bool concerns = (std::is_same_v<G, Tag> || ...);
-  std::tuple<Law...> laws;
+  Values<Law...> laws;
 };
 template <class... Tag, class... Law>
 [[nodiscard]] auto material(const Law&... law) {
   static_assert(sizeof...(Tag) > 0, "dmp: material<Groups...>(laws...) names no group");
   (check_parameters(sweep::as_particle_law(law)), ...);
-  return Material<std::tuple<Tag...>, decltype(sweep::as_particle_law(law))...>{{sweep::as_particle_law(law)...}};
+  return Material<std::tuple<Tag...>, decltype(sweep::as_particle_law(law))...>{{{sweep::as_particle_law(law)}...}};
 }
 
 template <class Tags, class Law>
@@ -179,13 +180,13 @@ template <class... Tag, class... Law>
 struct Forced<std::tuple<Tag...>, Law...> {
   template <class G>
   static constexpr bool concerns = (std::is_same_v<G, Tag> || ...);
-  std::tuple<Law...> laws;
+  Values<Law...> laws;
 };
 template <class... Tag, class... Law>
 [[nodiscard]] auto forced_by(const Law&... law) {
   static_assert(sizeof...(Tag) > 0, "dmp: forced_by<Groups...>(laws...) names no group");
   (check_parameters(law), ...);
-  return Forced<std::tuple<Tag...>, Law...>{{law...}};
+  return Forced<std::tuple<Tag...>, Law...>{{{law}...}};
 }
 
 template <class Tags, int Dim, std::size_t Count>

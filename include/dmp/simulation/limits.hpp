@@ -1,9 +1,10 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <vector>
 #include <dmp/bond/concept.hpp>
@@ -157,27 +158,22 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_forced<I>)
         if constexpr (I::template concerns<typename G::Tag>)
-          std::apply(
-              [&](const auto&... law) {
-                const auto one = [&](const auto& l) {
-                  if constexpr (requires { l.damping_rate(g.mass); })
-                    if (kind != BondKind::fast) drag += l.damping_rate(g.mass);
-                  if constexpr (requires(const forcing::Subject<G::Dim> subject) { l.stiffness(subject); }) {
-                    if (kind == BondKind::fast) return;
-                    forced.resize(g.size(), 0.0);
-                    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
-                      for (std::size_t i = first; i < last; ++i) {
-                        const double stiffness = l.stiffness(engine.subject(g, i, time, 0.0));
-                        if (!(stiffness >= 0.0))
-                          throw ParameterError("stiffness of a forcing on " + g.name + " must be >= 0 N/m, got " + to_text(stiffness));
-                        forced[i] += stiffness / g.mass;
-                      }
-                    });
-                  }
-                };
-                (one(law), ...);
-              },
-              active.item.laws);
+          active.item.laws.for_each([&](const auto& law) {
+            if constexpr (requires { law.damping_rate(g.mass); })
+              if (kind != BondKind::fast) drag += law.damping_rate(g.mass);
+            if constexpr (requires(const forcing::Subject<G::Dim> subject) { law.stiffness(subject); }) {
+              if (kind == BondKind::fast) return;
+              forced.resize(g.size(), 0.0);
+              for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                  const double stiffness = law.stiffness(engine.subject(g, i, time, 0.0));
+                  if (!(stiffness >= 0.0))
+                    throw ParameterError("stiffness of a forcing on " + g.name + " must be >= 0 N/m, got " + to_text(stiffness));
+                  forced[i] += stiffness / g.mass;
+                }
+              });
+            }
+          });
     });
     if (drag > 0.0) limit.require_below(Integrator::damping_limit / (drag + pairs.damping), "drag on " + g.name);
     enum class By { bond_dashpots, drags, viscosities, bond_springs, forcing_springs, potentials };
@@ -272,15 +268,10 @@ void check_stated_rates(const Engine& engine, const Item& item) {
   if constexpr (is_forced<Item>)
     engine.for_each_group([&](const auto& g) {
       if constexpr (Item::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
-        std::apply(
-            [&](const auto&... law) {
-              const auto one = [&](const auto& l) {
-                if constexpr (requires { l.damping_rate(g.mass); })
-                  stated([&] { return "drag on " + g.name; }, "damping_rate", l.damping_rate(g.mass), "1/s");
-              };
-              (one(law), ...);
-            },
-            item.laws);
+        item.laws.for_each([&](const auto& law) {
+          if constexpr (requires { law.damping_rate(g.mass); })
+            stated([&] { return "drag on " + g.name; }, "damping_rate", law.damping_rate(g.mass), "1/s");
+        });
     });
 }
 
@@ -291,28 +282,20 @@ void check_stated_rates(const Engine& engine, const Item& item) {
 template <class Integrator, class Engine>
 [[nodiscard]] sweep::StepLimit find_step_limit(const Engine& engine, double time, bool without_substepped) {
   sweep::StepLimit limit;
-  std::vector<sweep::StepState> states;
-  engine.for_each_group([&](const auto& g) { states.push_back(detail::state_of<Integrator>(engine, g)); });
-  std::vector<detail::PairRates> rates(states.size());
-  const auto index_of = [&]<class Tag>(std::type_identity<Tag>) {
-    std::size_t index = 0, found = 0;
-    engine.for_each_group([&](const auto& g) {
-      if (std::is_same_v<typename std::remove_cvref_t<decltype(g)>::Tag, Tag>) found = index;
-      ++index;
-    });
-    return found;
-  };
+  std::array<sweep::StepState, Engine::Groups::count> states;
+  std::array<detail::PairRates, Engine::Groups::count> rates;
+  std::size_t index = 0;
+  engine.for_each_group([&](const auto& g) { states[index++] = detail::state_of<Integrator>(engine, g); });
   engine.for_each_item([&](const auto& active) {
     using I = std::remove_cvref_t<decltype(active.item)>;
     detail::check_stated_rates(engine, active.item);
     if constexpr (is_interaction<I>) {
-      const std::size_t a = index_of(std::type_identity<typename I::A>{}), b = index_of(std::type_identity<typename I::B>{});
+      constexpr std::size_t a = Engine::template index_of<typename I::A>(), b = Engine::template index_of<typename I::B>();
       limit.damping = limit.oscillation = limit.sound = 0.0;
-      const auto one = [&](const auto& law) {
+      active.item.laws.for_each([&](const auto& law) {
         if constexpr (requires { law.step_limits(states[a], states[b], limit); }) law.step_limits(states[a], states[b], limit);
         else law.step_limits(detail::widest(states[a], states[b]), limit);
-      };
-      std::apply([&](const auto&... law) { (one(law), ...); }, active.item.laws);
+      });
       for (const std::size_t group : {a, b}) {
         rates[group].damping = std::max(rates[group].damping, limit.damping);
         rates[group].oscillation = std::max(rates[group].oscillation, limit.oscillation);
@@ -320,7 +303,7 @@ template <class Integrator, class Engine>
       }
     }
   });
-  std::size_t index = 0;
+  index = 0;
   engine.for_each_group([&](const auto& g) {
     detail::limit_group<Integrator>(engine, g, time, without_substepped ? detail::BondKind::slow : detail::BondKind::all, rates[index++],
                                     limit);

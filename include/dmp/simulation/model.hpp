@@ -57,13 +57,13 @@ template <class List, bool KeepsRates, class Precision, class... Item>
 struct Groups;
 template <class... G, bool KeepsRates, class Precision, class... Item>
 struct Groups<std::tuple<G...>, KeepsRates, Precision, Item...> {
-  using type = std::tuple<Group<G, Composition<G, KeepsRates, Item...>, Precision>...>;
+  using type = Values<Group<G, Composition<G, KeepsRates, Item...>, Precision>...>;
 };
 template <int Dim, class List>
 struct Actives;
 template <int Dim, class... Item>
 struct Actives<Dim, std::tuple<Item...>> {
-  using type = std::tuple<Active<Dim, Item>...>;
+  using type = Values<Active<Dim, Item>...>;
 };
 }  // namespace detail
 
@@ -72,7 +72,7 @@ template <int Dim, bool KeepsRates, class Precision, class... Item>
 class Model {
  public:
   using Groups = typename detail::Groups<detail::filter<detail::IsGroup, Item...>, KeepsRates, Precision, Item...>::type;
-  static constexpr bool has_pairs = (is_interaction<Item> || ...);
+  static constexpr bool has_pairs = (is_interaction<Item> || ...), has_bonds = (is_bonds<Item> || ...);
   static constexpr bool bonds_break = [] {
     return ([] {
       if constexpr (is_bonds<Item>) return bond::CanBreak<decltype(Item::law)>;
@@ -89,8 +89,8 @@ class Model {
 
   Model(const geometry::Box<Dim>& box, const Item&... item)
       : box_(box),
-        groups_(make_groups(std::tuple_cat(keep<is_group<Item>>(item)...))),
-        items_(make_items(std::tuple_cat(keep<!is_group<Item>>(item)...))) {
+        groups_(make_groups((Values<>{} + ... + keep<is_group<Item>>(item)))),
+        items_(make_items((Values<>{} + ... + keep<!is_group<Item>>(item)))) {
     validate(box);
     for (int d = 0; d < Dim; ++d)
       periods_[static_cast<std::size_t>(d)] = box.periodic[static_cast<std::size_t>(d)] ? box.upper[d] - box.lower[d] : 0.0;
@@ -110,33 +110,45 @@ class Model {
       if constexpr (is_material<I>) set_constants(active.item);
       if constexpr (is_summed<I>) check_summed(active.item);
     });
-    check_dispersion();
-    prepare_exclusions();
+    if constexpr (has_bonds) check_dispersion();
+    if constexpr (has_bonds && has_pairs) prepare_exclusions();
   }
 
+  /// Which group, in the order of declaration.
+  template <class Tag>
+  static consteval std::size_t index_of() {
+    constexpr std::size_t found = []<class Indices, class... G>(std::type_identity<dmp::detail::ValuesAt<Indices, G...>>) consteval {
+      std::size_t index = 0, result = sizeof...(G);
+      ((result = std::is_same_v<Tag, typename G::Tag> ? index : result, ++index), ...);
+      return result;
+    }
+    (std::type_identity<Groups>{});
+    static_assert(found < Groups::count, "dmp: an item of the scene names a group that the scene does not hold");
+    return found;
+  }
   template <class Tag>
   [[nodiscard]] auto& group() noexcept {
-    return std::get<index_of<Tag>()>(groups_);
+    return groups_.template get<index_of<Tag>()>();
   }
   template <class Tag>
   [[nodiscard]] const auto& group() const noexcept {
-    return std::get<index_of<Tag>()>(groups_);
+    return groups_.template get<index_of<Tag>()>();
   }
   template <class Function>
   [[gnu::always_inline]] void for_each_group(Function&& function) {
-    for_each_of(groups_, function);
+    groups_.for_each(function);
   }
   template <class Function>
   [[gnu::always_inline]] void for_each_group(Function&& function) const {
-    for_each_of(groups_, function);
+    groups_.for_each(function);
   }
   template <class Function>
   [[gnu::always_inline]] void for_each_item(Function&& function) {
-    for_each_of(items_, function);
+    items_.for_each(function);
   }
   template <class Function>
   [[gnu::always_inline]] void for_each_item(Function&& function) const {
-    for_each_of(items_, function);
+    items_.for_each(function);
   }
 
   /// Calls function(list, row, entry): where a bond of an item is listed; at its first end, if at both.
@@ -192,18 +204,6 @@ class Model {
   template <class G>
   static constexpr bool mobile = particles::is_mobile<typename std::remove_cvref_t<G>::Mobility>;
 
-  template <class Tag>
-  static consteval std::size_t index_of() {
-    constexpr std::size_t found = []<class... G>(std::type_identity<std::tuple<G...>>) consteval {
-      std::size_t index = 0, result = sizeof...(G);
-      ((result = std::is_same_v<Tag, typename G::Tag> ? index : result, ++index), ...);
-      return result;
-    }
-    (std::type_identity<Groups>{});
-    static_assert(found < std::tuple_size_v<Groups>, "dmp: an item of the scene names a group that the scene does not hold");
-    return found;
-  }
-
   [[nodiscard]] const auto& items() const noexcept { return items_; }
 
   template <class Tag, class Law>
@@ -227,9 +227,11 @@ class Model {
   }
   /// Pairs that were left out because of bonds that have broken since are pairs again.
   void renew_exclusions() {
-    if (!exclusions_are_worn()) return;
-    whole_bonds_ = whole_bonds();
-    prepare_exclusions();
+    if constexpr (has_pairs && bonds_break)
+      if (exclusions_are_worn()) {
+        whole_bonds_ = whole_bonds();
+        prepare_exclusions();
+      }
   }
 
   geometry::Box<Dim> box_;
@@ -239,15 +241,15 @@ class Model {
   using Items = typename detail::Actives<Dim, detail::filter<detail::IsNotGroup, Item...>>::type;
   template <bool Keep, class I>
   static auto keep(const I& item) {
-    if constexpr (Keep) return std::tuple<I>(item);
-    else return std::tuple<>();
+    if constexpr (Keep) return Values<const I&>{{item}};
+    else return Values<>{};
   }
   static Groups make_groups(const auto& items) {
-    return std::apply(
-        []<class... G>(const G&... item) { return Groups{Group<G, Composition<G, KeepsRates, Item...>, Precision>(item)...}; }, items);
+    return items.apply(
+        []<class... G>(const G&... item) { return Groups{{Group<G, Composition<G, KeepsRates, Item...>, Precision>(item)}...}; });
   }
   static Items make_items(const auto& items) {
-    return std::apply([]<class... I>(const I&... item) { return Items{detail::Active<Dim, I>{item}...}; }, items);
+    return items.apply([]<class... I>(const I&... item) { return Items{{detail::Active<Dim, I>{item}}...}; });
   }
   template <class Active>
   void prepare_bonds(Active& active) {
@@ -297,16 +299,14 @@ class Model {
     for_each_group([&](auto& g) {
       using Layout = typename std::remove_cvref_t<decltype(g)>::Layout;
       if constexpr (I::template concerns<typename std::remove_cvref_t<decltype(g)>::Tag>)
-        std::apply(
-            [&g](const auto&... law) {
-              const auto one = [&g]<class L>(const L& l) {
-                if constexpr (intersect<typename L::writes, typename Layout::constants>::count > 0) l.apply(g.constants);
-                if constexpr (contains<field::Density, typename Layout::columns>)  // two conditions: for Clang 14
-                  if constexpr (requires { l.eos.rest_density; }) g.template get<field::Density>().assign(g.size(), l.eos.rest_density);
-              };
-              sweep::with_chosen([&one](const auto&... chosen) { (one(chosen), ...); }, law...);
-            },
-            item.laws);
+        item.laws.apply([&g](const auto&... law) {
+          const auto one = [&g]<class L>(const L& l) {
+            if constexpr (intersect<typename L::writes, typename Layout::constants>::count > 0) l.apply(g.constants);
+            if constexpr (contains<field::Density, typename Layout::columns>)  // two conditions: for Clang 14
+              if constexpr (requires { l.eos.rest_density; }) g.template get<field::Density>().assign(g.size(), l.eos.rest_density);
+          };
+          sweep::with_chosen([&one](const auto&... chosen) { (one(chosen), ...); }, law...);
+        });
     });
   }
 
@@ -328,7 +328,7 @@ class Model {
 
   void prepare_exclusions() {
     if (excluded_reach() == 0) return;
-    std::array<std::uint32_t, std::tuple_size_v<Groups> + 1> first{};
+    std::array<std::uint32_t, Groups::count + 1> first{};
     for_each_group([&](const auto& g) {
       const std::size_t k = index_of<typename std::remove_cvref_t<decltype(g)>::Tag>();
       first[k + 1] = first[k] + static_cast<std::uint32_t>(g.size());

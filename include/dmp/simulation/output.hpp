@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <type_traits>
@@ -24,7 +25,12 @@ class VtkOutput {
   template <class Scene>
   void operator()(Scene& scene) {
     scene.engine().for_each_group([&](auto& group) {
-      write<std::remove_cvref_t<Scene>::dimension>(group.view(), group.positions(), derived(scene, group), scene.time());
+      const particles::GroupView view = group.view();
+      const std::vector<Derived> more = derived(scene, group);
+      const auto path = path_of(view);
+      io::write_vtp(path, io::PointCloud<std::remove_cvref_t<Scene>::dimension>{
+                              .positions = group.positions(), .ids = view.id, .data = data_of(view, more)});
+      series_->add(scene.time(), view.name, path);
     });
     ++frame_;
   }
@@ -53,19 +59,20 @@ class VtkOutput {
     });
     return result;
   }
-  template <int Dim>
-  void write(const particles::GroupView& view, std::span<const Vector<Dim>> positions, const std::vector<Derived>& derived, double time) {
-    io::PointCloud<Dim> cloud{.positions = positions, .ids = view.id};
+  /// All columns but the position, and what is derived from them.
+  [[nodiscard]] static std::vector<io::PointData> data_of(const particles::GroupView& view, const std::vector<Derived>& derived) {
+    std::vector<io::PointData> data;
     for (std::size_t column = 1; column < view.columns.size(); ++column) {
       const auto& values = view.columns[column];
-      cloud.data.push_back({std::string(values.name) + " [" + std::string(values.unit) + "]", values.values, values.components});
+      data.push_back({std::string(values.name) + " [" + std::string(values.unit) + "]", values.values, values.components});
     }
-    for (const auto& one : derived) cloud.data.push_back({one.name, one.values, 1});
+    for (const auto& one : derived) data.push_back({one.name, one.values, 1});
+    return data;
+  }
+  [[nodiscard]] std::filesystem::path path_of(const particles::GroupView& view) const {
     char number[16];
     std::snprintf(number, sizeof number, "_%04d.vtp", frame_);
-    const auto path = folder_ / (view.name + number);
-    io::write_vtp(path, cloud);
-    series_->add(time, view.name, path);
+    return folder_ / (view.name + number);
   }
 
   io::OutputFolder folder_;

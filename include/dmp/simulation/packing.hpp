@@ -1,7 +1,6 @@
 #pragma once
 #include <atomic>
 #include <cstddef>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <dmp/forcing/concept.hpp>
@@ -29,7 +28,7 @@ class Packing : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
   /// Calls function(laws...) with the material laws of a group; what was chosen at run time is looked up here, once.
   template <class G, class Function>
   void with_materials(const G&, Function&& function) const {
-    std::apply([&](const auto&... law) { sweep::with_chosen(function, law...); }, laws_for<typename G::Tag>());
+    laws_for<typename G::Tag>().apply([&](const auto&... law) { sweep::with_chosen(function, law...); });
   }
   /// Particle i as the material laws complete it: state, pressure term, viscosity, ...; `dt` [s] is the step under way, 0 between steps.
   template <class G, class... Law>
@@ -160,14 +159,15 @@ class Packing : public Lists<Dim, Integrator::keeps_rates, Precision, Item...> {
  private:
   template <class Tag>
   [[nodiscard]] auto laws_for() const {  // of all materials that concern the group; apart from what is done with them: compiled once
-    return std::apply([](const auto&... active) { return std::tuple_cat(laws_of<Tag>(active.item)...); }, this->items());
+    return this->items().apply([](const auto&... active) { return (Values<>{} + ... + laws_of<Tag>(active.item)); });
   }
   template <class Tag, class I>
   static auto laws_of(const I& item) {
     if constexpr (is_material<I>)
-      if constexpr (I::template concerns<Tag>) return std::apply([](const auto&... law) { return std::tie(law...); }, item.laws);
-      else return std::tuple<>();
-    else return std::tuple<>();
+      if constexpr (I::template concerns<Tag>)
+        return item.laws.apply([]<class... Law>(const Law&... law) { return Values<const Law&...>{{law}...}; });
+      else return Values<>{};
+    else return Values<>{};
   }
 
   bool refused_ = false;  // a material law could not work with a particle

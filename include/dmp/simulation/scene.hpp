@@ -40,6 +40,42 @@ struct RunReport {
   std::string step_bound_by;       ///< what set the step: a law, or the user within the bound of a law, and beyond what resolves another
 };
 
+namespace detail {
+inline void check_options(const RunOptions& options, const Clock& clock) {
+  require(options.until >= clock.time - 0.5 * clock.time_step && options.until < std::numeric_limits<double>::infinity(),
+          "scene: run until must be finite and not before the present time [s]", options.until);
+  require_not_negative("scene: time_step", options.time_step, "s");
+  require(options.safety > 0.0 && options.safety <= 1.0, "scene: safety must be > 0 and <= 1", options.safety);
+  require(options.check_every > 0, "scene: check_every must be > 0", static_cast<double>(options.check_every));
+}
+/// The step [s] to begin with, which must be within the bound of what is stable.
+[[nodiscard]] inline double first_step(const RunOptions& options, const sweep::StepLimit& limit) {
+  const double step = options.time_step > 0.0 ? options.time_step : options.safety * limit.time_step;
+  if (!(step < std::numeric_limits<double>::infinity()))
+    throw ParameterError("scene: no law of this scene bounds the time step; give one as time_step");
+  if (step > limit.stable_time_step)
+    throw ParameterError("scene: time_step must be <= " + to_text(limit.stable_time_step) + " s, the bound of " + limit.stability_bound_by +
+                         ", got " + to_text(step));
+  return step;
+}
+/// A step that the user gave must stay within the bounds as they change.
+inline void check_given_step(const Clock& clock, const sweep::StepLimit& limit) {
+  if (clock.time_step > limit.stable_time_step)
+    throw failure("the given time step is longer than " + to_text(limit.stable_time_step) + " s, by now the bound of " +
+                      limit.stability_bound_by,
+                  clock);
+}
+/// What set the step of a run.
+[[nodiscard]] inline std::string step_bound(const RunOptions& options, const RunReport& report) {
+  if (options.time_step == 0.0) return report.limit.bound_by;
+  const auto share_of = [&report](double bound) { return to_text(std::round(100.0 * report.time_step / bound)) + " %"; };
+  std::string text = "given, " + share_of(report.limit.stable_time_step) + " of the bound of " + report.limit.stability_bound_by;
+  if (options.time_step > report.limit.time_step)
+    text += ", " + share_of(report.limit.time_step) + " of what resolves " + report.limit.bound_by;
+  return text;
+}
+}  // namespace detail
+
 /// A composed simulation: groups, what they do to each other, an integrator, and what looks on. Made by `scene(...)`.
 template <int Dim, class Integrator, class Precision, class... Item>
 class Scene {
@@ -98,11 +134,7 @@ class Scene {
   }
 
   RunReport run(const RunOptions& options) {
-    require(options.until >= clock_.time - 0.5 * clock_.time_step && options.until < std::numeric_limits<double>::infinity(),
-            "scene: run until must be finite and not before the present time [s]", options.until);
-    require_not_negative("scene: time_step", options.time_step, "s");
-    require(options.safety > 0.0 && options.safety <= 1.0, "scene: safety must be > 0 and <= 1", options.safety);
-    require(options.check_every > 0, "scene: check_every must be > 0", static_cast<double>(options.check_every));
+    detail::check_options(options, clock_);
     const auto start = std::chrono::steady_clock::now();
     const std::clock_t processor_start = std::clock();
     RunReport report;
@@ -110,12 +142,7 @@ class Scene {
       prepare();
       check_places(engine_, clock_.time);
       report.limit = first_bounds();
-      const double first_step = options.time_step > 0.0 ? options.time_step : options.safety * report.limit.time_step;
-      if (!(first_step < std::numeric_limits<double>::infinity()))
-        throw ParameterError("scene: no law of this scene bounds the time step; give one as time_step");
-      if (first_step > report.limit.stable_time_step)
-        throw ParameterError("scene: time_step must be <= " + to_text(report.limit.stable_time_step) + " s, the bound of " +
-                             report.limit.stability_bound_by + ", got " + to_text(first_step));
+      const double first_step = detail::first_step(options, report.limit);
       const bool goes_on = options.time_step == 0.0 && clock_.automatic == 1 && clock_.time_step <= report.limit.time_step;
       clock_.automatic = options.time_step == 0.0 ? 1 : 0;
       choose_step(goes_on ? clock_.time_step : first_step);
@@ -134,8 +161,7 @@ class Scene {
             report.limit.include(limit);
             const bool is_bound = limit.time_step < std::numeric_limits<double>::infinity();
             if (!is_bound && !bonds_break)  // broken bonds need no bound, a body that has left a plane may meet it again
-              throw SimulationError("no law of this scene bounds the time step any more; give one as time_step",
-                                    {clock_.time, clock_.step, "", -1, "", 0.0});
+              throw failure("no law of this scene bounds the time step any more; give one as time_step", clock_);
             in_run([&] { choose_step(is_bound ? options.safety * limit.time_step : clock_.time_step); });
             if (!(clock_.time_step > 1e-6 * first_step))
               throw SimulationError("the time step collapsed (bound of " + limit.bound_by + ")",
@@ -154,8 +180,7 @@ class Scene {
           check_materials(engine_, clock_, clock_.time_step);  // of what has been summed over neighbours, or sub-stepped
         engine_.forces(clock_.time_step, clock_.time);
         if (!engine_.dashpots_converged())
-          throw SimulationError("the dashpots of implicit_bonds have not been solved for: conjugate gradients did not converge",
-                                {clock_.time, clock_.step, "", -1, "", 0.0});
+          throw failure("the dashpots of implicit_bonds have not been solved for: conjugate gradients did not converge", clock_);
         ++report.steps;
         // Where nobody looks at the state between two steps, the end of one and the beginning of the next are one pass.
         const bool checks = clock_.step % options.check_every == 0,
@@ -183,12 +208,7 @@ class Scene {
       if (has_bonds && options.time_step > 0.0 && !bounds_checked)
         check_step(report.limit);  // their bound follows how they turn, from step to step
       report.time_step = clock_.time_step;
-      report.step_bound_by = options.time_step == 0.0
-                                 ? report.limit.bound_by
-                                 : "given, " + share_of(report.limit.stable_time_step) + " of the bound of " +
-                                       report.limit.stability_bound_by;
-      if (options.time_step > report.limit.time_step)
-        report.step_bound_by += ", " + share_of(report.limit.time_step) + " of what resolves " + report.limit.bound_by;
+      report.step_bound_by = detail::step_bound(options, report);
     } catch (const SimulationError& error) {
       rescue(error);
       throw;
@@ -240,7 +260,7 @@ class Scene {
       return false;
     }() || ...);
   }();
-  static constexpr bool has_bonds = (is_bonds<Item> || ...);
+  static constexpr bool has_bonds = Engine<Dim, Integrator, Precision, Item...>::has_bonds;
   static constexpr bool bonds_break = Engine<Dim, Integrator, Precision, Item...>::bonds_break;
   /// Forces of a potential may change the speed at which beads collide as fast; that bounds no step that the user has given.
   static constexpr bool collides = [] {
@@ -317,21 +337,17 @@ class Scene {
       return function();
     } catch (const ParameterError& error) {
       check_state(engine_, clock_);
-      throw SimulationError(error.what(), {clock_.time, clock_.step, "", -1, "", 0.0});
+      throw failure(error.what(), clock_);
     }
   }
   [[nodiscard]] sweep::StepLimit bounds_by_now() {
     return in_run([this] { return find_step_limit<Integrator>(engine_, clock_.time, has_substeps); });
   }
-  [[nodiscard]] std::string share_of(double bound) const { return to_text(std::round(100.0 * clock_.time_step / bound)) + " %"; }
   /// A step that the user gave must stay within the bounds as they change.
   void check_step(sweep::StepLimit& smallest) {
     const auto limit = bounds_by_now();
     smallest.include(limit);
-    if (clock_.time_step > limit.stable_time_step)
-      throw SimulationError(
-          "the given time step is longer than " + to_text(limit.stable_time_step) + " s, by now the bound of " + limit.stability_bound_by,
-          {clock_.time, clock_.step, "", -1, "", 0.0});
+    detail::check_given_step(clock_, limit);
   }
   void rescue(const SimulationError& error) {
     if (last_good_.empty()) return;

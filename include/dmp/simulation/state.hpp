@@ -40,6 +40,11 @@ struct Clock {
   }
 };
 
+/// A run that went wrong, with no single particle to blame.
+[[nodiscard]] inline SimulationError failure(const std::string& what_happened, const Clock& clock) {
+  return {what_happened, {clock.time, clock.step, "", -1, "", 0.0}};
+}
+
 /// Names dimension, integrator, groups, mobilities and columns: a checkpoint of another composition does not fit.
 [[nodiscard]] inline std::string signature(int dimension, std::string_view integrator, const std::vector<particles::GroupView>& groups) {
   std::string text = std::to_string(dimension) + "D, " + std::string(integrator);
@@ -87,6 +92,23 @@ struct Fault {
     }
   }
   return {};
+}
+
+/// Throws SimulationError if there is a fault.
+inline void require_none(const Fault& found, const Clock& clock) {
+  if (!found.what.empty())
+    throw SimulationError("a value " + found.what, {clock.time, clock.step, found.group, found.particle, found.field, found.value});
+}
+
+/// Groups must have names of their own, and no value be at `fault`. Throws ParameterError.
+inline void check_groups(const std::vector<particles::GroupView>& groups, const Fault& fault) {
+  for (std::size_t a = 0; a < groups.size(); ++a)
+    for (std::size_t b = a + 1; b < groups.size(); ++b)
+      if (groups[a].name == groups[b].name)
+        throw ParameterError("scene: the names of groups must differ, got " + groups[a].name + " twice");
+  if (!fault.what.empty())
+    throw ParameterError("scene: group " + fault.group + ", particle " + std::to_string(fault.particle) + ": " + fault.field + " " +
+                         fault.what + ", got " + to_text(fault.value));
 }
 
 /// A copy of all columns.
@@ -190,9 +212,11 @@ inline void write_checkpoint(const std::string& path, const std::string& signatu
           "group " + fault.group + ", particle " + std::to_string(fault.particle) + ": " + fault.field + " " + fault.what,
           to_text(fault.value));
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (std::size_t c = 0; c < groups[g].columns.size(); ++c)
-      std::ranges::copy(found[g].columns[c].values, groups[g].columns[c].values.begin());
-    std::ranges::copy(found[g].id, groups[g].id.begin());
+    for (std::size_t c = 0; c < groups[g].columns.size(); ++c) {
+      const auto values = found[g].columns[c].values;
+      std::copy_n(values.data(), values.size(), groups[g].columns[c].values.data());
+    }
+    std::copy_n(found[g].id.data(), found[g].id.size(), groups[g].id.data());
   }
   return clock;
 }
