@@ -163,18 +163,30 @@ class BondList {
       }
     }
   }
-  [[nodiscard]] bool crosses(std::size_t i) const noexcept { return crosses_[i] != 0; }
+  /// To be read without the list: what a loop that also writes keeps in registers.
+  struct Reader {
+    const std::uint32_t* offset;
+    Entries all;
+    const std::uint8_t* crossing;
 
-  /// Of particle i, whole packs.
-  [[nodiscard]] Entries of(std::size_t i) const noexcept {
-    const std::uint32_t first = offset_[i];
-    return {offset_[i + 1] - first,
-            partner_.data() + first,
-            reaction_.data() + first,
-            rest_length_.data() + first,
-            weight_.data() + weight_step_ * first,
-            weight_step_};
+    [[nodiscard, gnu::always_inline]] bool crosses(std::size_t i) const noexcept { return crossing[i] != 0; }
+    /// Of particle i, whole packs.
+    [[nodiscard, gnu::always_inline]] Entries of(std::size_t i) const noexcept {
+      const std::uint32_t first = offset[i];
+      return {offset[i + 1] - first,
+              all.partner + first,
+              all.reaction + first,
+              all.rest_length + first,
+              all.weight + all.weight_step * first,
+              all.weight_step};
+    }
+  };
+  [[nodiscard]] Reader reader() const noexcept {
+    return {offset_.data(), {partner_.size(), partner_.data(), reaction_.data(), rest_length_.data(), weight_.data(), weight_step_},
+            crosses_.data()};
   }
+  [[nodiscard]] bool crosses(std::size_t i) const noexcept { return reader().crosses(i); }
+  [[nodiscard]] Entries of(std::size_t i) const noexcept { return reader().of(i); }
   [[nodiscard]] bool empty() const noexcept { return partner_.empty(); }
   /// Entries of a block, what a sweep over it costs.
   [[nodiscard]] double entries(const Blocks& blocks, std::size_t block) const noexcept {

@@ -157,12 +157,11 @@ class Dashpots : public Forces<Dim, Integrator, Precision, Item...> {
           using I = std::remove_cvref_t<decltype(active.item)>;
           if constexpr (detail::solves_dashpots<I>) {
             const auto& law = active.item.law.dashpot;
-            for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
-              if constexpr (std::is_same_v<typename G::Tag, typename I::A>)
-                this->template bonds<typename I::B>(g, i, active.of_a, add, law, sweep::NoMemory{});
-              else if constexpr (std::is_same_v<typename G::Tag, typename I::B>)
-                this->template bonds<typename I::A>(g, i, active.of_b, add, law, sweep::NoMemory{});
-            }
+            const auto none = [](std::size_t) { return sweep::NoMemory{}; };
+            if constexpr (std::is_same_v<typename G::Tag, typename I::A>)
+              this->template bonds<typename I::B>(g, block, active.of_a, add, law, none);
+            else if constexpr (std::is_same_v<typename G::Tag, typename I::B>)
+              this->template bonds<typename I::A>(g, block, active.of_b, add, law, none);
           }
         });
         for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {

@@ -101,10 +101,13 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
     if constexpr (evolves<G>) {
       this->with_materials(g, [&](const auto&... law) {
         for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-          follow(g, block, [&](std::size_t i) {
-            if (last_dt > 0.0) end(g, i, last_dt);
+          follow(g, block, [&, last_dt, dt, time](std::size_t i) {
+            if constexpr (mobile<G>) move(g, i, last_dt, dt);
+            if (last_dt > 0.0) end_state(g, i, last_dt);
             if (!(dt > 0.0)) return;
-            begin(g, i, dt, time);
+            if constexpr (meets_planes<G>) stop_at_planes(*this, g, i, dt, time);
+            follow_motion(g, i, time);
+            begin_state(g, i, dt);
             if constexpr (C::has_records) this->pack_one(g, i, dt, law...);
           });
         });
@@ -131,13 +134,21 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
       for (std::size_t i = first; i < last; ++i) function(i);
     }
   }
+  /// Velocity and position of a particle over the end of the last step and the beginning of the next, in registers.
   template <class G>
-  void begin(G& g, std::size_t i, double dt, double time) {
-    if constexpr (mobile<G>)
-      Integrator::begin(g.positions()[i], g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
-    if constexpr (meets_planes<G>) stop_at_planes(*this, g, i, dt, time);
-    follow_motion(g, i, time);
-    begin_state(g, i, dt);
+  static void move(G& g, std::size_t i, double last_dt, double dt) {
+    auto& x = g.positions()[i];
+    auto& v = g.template get<field::Velocity>()[i];
+    auto position = to_components<Dim>(x), velocity = to_components<Dim>(v);
+    const auto acceleration = to_components<Dim>(g.template get<field::Acceleration>()[i]);
+    if (last_dt > 0.0)
+      unrolled<Dim>([&](auto d) {
+        if constexpr (LayoutOf<G>::has_substeps) velocity[d] += 0.5 * last_dt * acceleration[d];  // the second slow kick
+        else Integrator::end(velocity[d], acceleration[d], last_dt);
+      });
+    if (dt > 0.0) unrolled<Dim>([&](auto d) { Integrator::begin(position[d], velocity[d], acceleration[d], dt); });
+    for (int d = 0; d < Dim; ++d) x[d] = position[d];
+    for (int d = 0; d < Dim; ++d) v[d] = velocity[d];
   }
   template <class G>
   void begin_state(G& g, std::size_t i, double dt) {
@@ -146,10 +157,7 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
     });
   }
   template <class G>
-  void end(G& g, std::size_t i, double dt) {
-    if constexpr (LayoutOf<G>::has_substeps)
-      g.template get<field::Velocity>()[i] += 0.5 * dt * g.template get<field::Acceleration>()[i];  // the second slow kick
-    else if constexpr (mobile<G>) Integrator::end(g.template get<field::Velocity>()[i], g.template get<field::Acceleration>()[i], dt);
+  void end_state(G& g, std::size_t i, double dt) {
     for_each_field(typename LayoutOf<G>::rates{}, [&]<class Rate>(Rate) {
       Integrator::end_state(g.template get<typename Rate::integrates>()[i], g.template get<Rate>()[i], dt);
     });

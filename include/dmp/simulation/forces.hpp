@@ -114,13 +114,13 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
     });
   }
 
-  /// Adds the force of the bonds of particle i to its row of sums, and the reactions to the rows of its partners if they are of this group.
-  template <class Source, class G, class Add, class Law, class Memory>
-  [[gnu::always_inline]] void bonds(const G& g, std::size_t i, const neighbours::BondList& list, const Add& add, const Law& law,
-                                    const Memory& memory) const noexcept {
+  /// Adds the forces of the bonds of the particles of a block to their rows of sums, and the reactions to the rows of their partners if
+  /// these are of this group. What bonds remember is memory_of(i).
+  template <class Source, class G, class Add, class Law, class MemoryOf>
+  [[gnu::always_inline]] void bonds(const G& g, std::size_t block, const neighbours::BondList& list, const Add& add, const Law law,
+                                    const MemoryOf& memory_of) const noexcept {
     const auto& source = this->template group<Source>();
     using Partners = typename std::remove_cvref_t<decltype(source)>::Records;
-    const auto records = records_for(g, i, source);
     constexpr bool positions_alone = Partners::numbers == Dim && G::Records::numbers == Dim;
     const auto plus = [sums = add.data](std::size_t at, Lanes factor, const sweep::Row<Dim>& vector) __attribute__((always_inline)) {
       sweep::Row<Dim>::load(sums + at).plus(factor, vector).store(sums + at);
@@ -129,10 +129,15 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
       if constexpr (std::is_same_v<Source, typename G::Tag>) plus(at, factor, vector);
       else static_cast<void>(plus);
     };
-    const std::size_t own = i * static_cast<std::size_t>(G::Sums::stride);
-    if (list.crosses(i))
-      plus(own, 1.0, sweep::sum_bonds<Dim, true, positions_alone>(records, list.of(i), bond_periods_, react, law, memory));
-    else plus(own, 1.0, sweep::sum_bonds<Dim, false, positions_alone>(records, list.of(i), bond_periods_, react, law, memory));
+    const auto bonds = list.reader();
+    auto records = records_for(g, g.blocks.begin(block), source);
+    const std::size_t end = g.blocks.end(block);
+    for (std::size_t i = g.blocks.begin(block); i < end; ++i, records.own += G::Records::stride) {
+      const std::size_t own = i * static_cast<std::size_t>(G::Sums::stride);
+      if (bonds.crosses(i))
+        plus(own, 1.0, sweep::sum_bonds<Dim, true, positions_alone>(records, bonds.of(i), bond_periods_, react, law, memory_of(i)));
+      else plus(own, 1.0, sweep::sum_bonds<Dim, false, positions_alone>(records, bonds.of(i), bond_periods_, react, law, memory_of(i)));
+    }
   }
 
  private:
@@ -228,12 +233,11 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_bonds<I>)
         if constexpr (mobile<G> && I::substepped == Fast && (std::is_same_v<Tag, typename I::A> || std::is_same_v<Tag, typename I::B>)) {
-          const std::size_t end = g.blocks.end(block);
-          for (std::size_t i = g.blocks.begin(block); i < end; ++i) {
-            if constexpr (std::is_same_v<Tag, typename I::A>)
-              bonds<typename I::B>(g, i, active.of_a, add, active.item.law, active.recall.of(active.of_a, i));
-            else bonds<typename I::A>(g, i, active.of_b, add, active.item.law, active.recall.of(active.of_b, i));
-          }
+          const auto add_up = [&]<class Source>(std::type_identity<Source>, neighbours::BondList& list) __attribute__((always_inline)) {
+            bonds<Source>(g, block, list, add, active.item.law, [&](std::size_t i) { return active.recall.of(list, i); });
+          };
+          if constexpr (std::is_same_v<Tag, typename I::A>) add_up(std::type_identity<typename I::B>{}, active.of_a);
+          else add_up(std::type_identity<typename I::A>{}, active.of_b);
         }
     });
   }

@@ -180,6 +180,7 @@ class Model {
   template <class Active>
   [[nodiscard]] const neighbours::Bond* find_long_bond(const Active& active) const {
     using I = decltype(active.item);
+    if (periods_ == std::array<double, Dim>{}) return nullptr;
     const auto& a = group<typename I::A>().positions();
     const auto& b = group<typename I::B>().positions();
     for (const auto& bond : active.item.bonds) {

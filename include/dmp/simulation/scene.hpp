@@ -26,7 +26,7 @@ struct RunOptions {
   double time_step = 0.0;  ///< [s], held against the laws' bounds as often as values are checked; 0: from the bounds, reconsidered every
                            ///< 10 steps, with a viscosity of the shear rate or a pair potential every step
   double safety = 0.9;              ///< fraction of the smallest bound that is taken when time_step is 0; 0 < safety <= 1
-  std::uint64_t check_every = 100;  ///< steps between two checks of all values (finite, in the box)
+  std::uint64_t check_every = 100;  ///< steps of a run between two checks of all values (finite, in the box)
 };
 
 /// What a run did.
@@ -153,7 +153,7 @@ class Scene {
       Progress bar(shows_progress_, clock_.time, options.until);
       observe();
       const auto goes_further = [&] { return clock_.time < options.until - 0.5 * clock_.time_step; };
-      bool begun = false, worn = false, bounds_checked = false;  // of the present state
+      bool begun = false, worn = false, checked = false, bounds_checked = false;  // of the present state
       while (begun || goes_further()) {
         if (!begun) {
           if (options.time_step == 0.0 && clock_.step % steps_between_choices() == 0) {
@@ -183,7 +183,7 @@ class Scene {
           throw failure("the dashpots of implicit_bonds have not been solved for: conjugate gradients did not converge", clock_);
         ++report.steps;
         // Where nobody looks at the state between two steps, the end of one and the beginning of the next are one pass.
-        const bool checks = clock_.step % options.check_every == 0,
+        const bool checks = report.steps % options.check_every == 0,
                    chooses = (options.time_step == 0.0 || bounds_jump || has_substeps) && clock_.step % steps_between_choices() == 0;
         begun = !checks && !chooses && !observes() && goes_further();
         if (begun) {
@@ -200,11 +200,14 @@ class Scene {
         bounds_checked = options.time_step > 0.0 && (checks || chooses);
         if (bounds_checked) check_step(report.limit);
         if (options.time_step > 0.0 && chooses) reconsider_substeps();
+        checked = checks && !observes();  // who observes may change it
         observe();
         bar.show(clock_.time);
       }
-      check_state(engine_, clock_);
-      check_materials(engine_, clock_, 0.0);
+      if (!checked) {
+        check_state(engine_, clock_);
+        check_materials(engine_, clock_, 0.0);
+      }
       if (has_bonds && options.time_step > 0.0 && !bounds_checked)
         check_step(report.limit);  // their bound follows how they turn, from step to step
       report.time_step = clock_.time_step;

@@ -55,6 +55,24 @@ struct Clock {
   return text;
 }
 
+namespace detail {
+/// Whether all values are finite, and positive if they must be. Eight at a time, each with its own sum: no waiting for the one before.
+[[nodiscard]] inline bool are_fine(const particles::ColumnView& column) noexcept {
+  constexpr std::size_t width = 8;
+  double probe[width]{}, least[width];  // probes stay 0 as long as all values are finite
+  std::ranges::fill(least, 1.0);
+  const auto look = [&](std::size_t k, std::size_t lane) {
+    probe[lane] += 0.0 * column.values[k];
+    least[lane] = column.values[k] < least[lane] ? column.values[k] : least[lane];
+  };
+  std::size_t k = 0;
+  for (; k + width <= column.values.size(); k += width)
+    for (std::size_t lane = 0; lane < width; ++lane) look(k + lane, lane);
+  for (; k < column.values.size(); ++k) look(k, 0);
+  return std::ranges::all_of(probe, [](double p) { return p == 0.0; }) && (!column.is_positive || std::ranges::min(least) > 0.0);
+}
+}  // namespace detail
+
 /// What is wrong with a state: the first value that is not finite, or not positive though it must be, and the first particle outside
 /// lower .. upper [m] (infinite bounds: none). Empty `what` when nothing is.
 struct Fault {
@@ -67,6 +85,8 @@ struct Fault {
 
 [[nodiscard]] inline Fault find_fault(const std::vector<particles::GroupView>& groups, std::span<const double> lower,
                                       std::span<const double> upper) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const bool unbounded = std::ranges::max(lower) == -infinity && std::ranges::min(upper) == infinity;
   for (const auto& group : groups) {
     if (group.id.empty()) continue;  // bonds: what goes wrong with them shows in their particles
     const auto fault = [&](const char* what, const particles::ColumnView& column, std::size_t k) {
@@ -74,22 +94,18 @@ struct Fault {
                    std::string(column.name), column.values[k]};
     };
     for (const auto& column : group.columns) {
-      double probe = 0.0, least = 1.0;  // probe stays 0 as long as all values are finite
-      for (const double value : column.values) {
-        probe += 0.0 * value;
-        least = value < least ? value : least;
-      }
-      if (probe == 0.0 && (!column.is_positive || least > 0.0)) continue;
+      if (detail::are_fine(column)) continue;
       for (std::size_t k = 0; k < column.values.size(); ++k) {
         if (!(column.values[k] - column.values[k] == 0.0)) return fault("must be finite", column, k);
         if (column.is_positive && !(column.values[k] > 0.0)) return fault("must be > 0", column, k);
       }
     }
+    if (unbounded) continue;
     const auto& position = group.columns.front();
-    for (std::size_t k = 0; k < position.values.size(); ++k) {
-      const std::size_t d = k % lower.size();
-      if (!(position.values[k] >= lower[d] && position.values[k] <= upper[d])) return fault("must lie in the box", position, k);
-    }
+    for (std::size_t k = 0; k < position.values.size(); k += lower.size())
+      for (std::size_t d = 0; d < lower.size(); ++d)
+        if (!(position.values[k + d] >= lower[d] && position.values[k + d] <= upper[d]))
+          return fault("must lie in the box", position, k + d);
   }
   return {};
 }
