@@ -47,7 +47,7 @@ TEST_CASE("fluids and heat: stable at 0.95 of the bound, and where it ends the b
 }
 TEST_CASE("beads, bonds and forcings: stable at 0.95 of the bound, and where it ends the blow-up is caught") {
   const std::string &k = springs_of_beads, &c = dashpots_of_beads;
-  check(beads<Leapfrog>(), {k, k, c, c, k, k, k, k, k, k, k, "pair potential", "drag on beads", "stiffness of a forcing on beads"});
+  check(beads<Leapfrog>(), {k, k, k, k, k, c, c, k, k, k, k, k, k, k, "pair potential", "drag on beads", "stiffness of a forcing on beads"});
 }
 TEST_CASE("several laws that bound the step alike: together too they are stable at 0.95 of the bound") {
   check(together<ExtrapolatedVerlet>(), {"drag on fluid", "viscosity of fluid", "sound", "viscosity of fluid"});

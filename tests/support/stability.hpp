@@ -231,11 +231,11 @@ template <class Integrator>
 }
 
 /// A block of the cubic lattice of springs, 18 to a bead inside, free on all sides.
-template <class Integrator>
-[[nodiscard]] Case block(std::string name, std::string text) {
+template <class Integrator, class Law>
+[[nodiscard]] Case block(std::string name, std::string text, const Law& law) {
   const auto body = lattice_spring::lattice_block(lattice_spring::CubicLattice{.spacing = 1.0}, {6, 6, 6});
   auto result = scene<Careless<Integrator>>(geometry::Box<3>::unbounded(), group<Beads>("beads", particles::Mobile{}, body.points, 1.0),
-                                            bonds<Beads, Beads>(bond::Harmonic{.stiffness = 1.0}, body.bonds));
+                                            bonds<Beads, Beads>(law, body.bonds));
   disturb_velocities(result.template group<Beads>(), 1e-6);
   return make_case(std::move(name), std::move(text), std::move(result), [](const auto& s) { return largest_speed(s.template group<Beads>()) / 1e-6; });
 }
@@ -353,12 +353,17 @@ template <class Integrator>
 [[nodiscard]] std::vector<Case> beads() {
   const auto dashpot = [](double stiffness, double damping) { return bonds_of(bond::KelvinVoigt{.stiffness = stiffness, .damping = damping}); };
   const auto solid = [](double damping) { return bonds_of(bond::StandardLinearSolid{.stiffness = 1.0, .branch_stiffness = 3.0, .branch_damping = damping}); };
+  const auto dispersive = [](double share) { return bond::Dispersive{.stiffness = 1.0, .dispersive_share = share}; };
   const auto substepped = [](const auto& list) { return substepped_bonds<Beads, Beads>(Understated{{.stiffness = 1.0}}, list, 1); };
   const auto implicit = [](double damping) {
     return [damping](const auto& list) { return implicit_bonds<Beads, Beads>(bond::KelvinVoigt{.stiffness = 1.0, .damping = damping}, list); };
   };
   return {springs<Integrator>(),
-          block<Integrator>("bond::Harmonic", "free block of 6^3 cells, 18 springs each inside"),
+          block<Integrator>("bond::Harmonic", "free block of 6^3 cells, 18 springs each inside", bond::Harmonic{.stiffness = 1.0}),
+          expect(block<Integrator>("bond::Dispersive", "that block, D = 0.4", dispersive(0.4)), 1.5),
+          expect(block<Integrator>("bond::Dispersive", "that block, D = 0.96", dispersive(0.96)), 2.1,
+                 "of the fastest motions the mean strain is small, and D k acts through it alone"),
+          expect(block<Integrator>("bond::Dispersive", "that block, D = -0.5", dispersive(-0.5)), 1.5),
           dashpots<Integrator>(),
           ring<Integrator>("bond::KelvinVoigt, both", "ring of 16 beads", dashpot(1.0, 1.0)),
           taut<Integrator>("bond under tension, across", "ring of cables, T = 1 N"),
