@@ -1,5 +1,5 @@
-// Where bodies of bonds blow up: for each bond law, on two beads and on a block of lattice, the step that a scene allows, the exact limit of
-// the scheme, and the one found by bisection. One CSV line each, steps in 1/omega, omega the highest frequency of the springs;
+// Where bodies of bonds blow up: for each bond law, on two beads and on a block of lattice, the step that a scene allows, the exact limit
+// of the scheme, and the one found by bisection. One CSV line each, steps in 1/omega, omega the highest frequency of the springs;
 // bonded_solids.py makes a table of them.
 #include <algorithm>
 #include <cmath>

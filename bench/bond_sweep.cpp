@@ -1,6 +1,6 @@
-// The bond sweep of a spring lattice: cubic, springs to the 6 nearest and 12 next-nearest particles, 125 000 particles, one core. Composed from the
-// bond law, by particle; and a plain scalar loop over bonds that writes both ends, as the classic codes do.
-// ns/bond counts every bond once in both. `bond_step` is the whole step of a scene of them.
+// The bond sweep of a spring lattice: cubic, springs to the 6 nearest and 12 next-nearest particles, 125 000 particles, one core. Composed
+// from the bond law, by particle; and a plain scalar loop over bonds that writes both ends, as the classic codes do. ns/bond counts every
+// bond once in both. `bond_step` is the whole step of a scene of them.
 #include <array>
 #include <cmath>
 #include <random>
@@ -32,16 +32,19 @@ struct Lattice {
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
           positions.emplace_back(i + jitter(generator), j + jitter(generator), k + jitter(generator));
-          constexpr std::array<std::array<int, 3>, 9> steps{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}}};
+          constexpr std::array<std::array<int, 3>, 9> steps{
+              {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}}};
           for (const auto& step : steps) {
             const int a = i + step[0], b = j + step[1], c = k + step[2];
             if (a < 0 || b < 0 || c < 0 || a >= n || b >= n || c >= n) continue;
-            bonds.push_back({row(i, j, k), row(a, b, c), std::sqrt(static_cast<double>(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]))});
+            bonds.push_back(
+                {row(i, j, k), row(a, b, c), std::sqrt(static_cast<double>(step[0] * step[0] + step[1] * step[1] + step[2] * step[2]))});
           }
         }
     use_threads(1);
     blocks = Blocks(positions.size());
-    list.build(blocks, bonds, true, false, Lanes::width, {particles::Records<3, Record>::stride, particles::Sums<3, Fields<field::Force>>::stride});
+    list.build(blocks, bonds, true, false, Lanes::width,
+               {particles::Records<3, Record>::stride, particles::Sums<3, Fields<field::Force>>::stride});
     records.resize(positions.size());
     sums.resize(blocks.far_row(blocks.size()));
     sums.set_zero(0, sums.size());
@@ -56,8 +59,8 @@ Lattice& lattice() {
 
 void report(benchmark::State& state) {
   const Lattice& l = lattice();
-  state.counters["ns/bond"] =
-      benchmark::Counter(1e-9 * static_cast<double>(l.bonds.size()) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["ns/bond"] = benchmark::Counter(1e-9 * static_cast<double>(l.bonds.size()) * static_cast<double>(state.iterations()),
+                                                 benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   double checksum = 0.0;
   for (const auto& f : l.force) checksum += f.squaredNorm();
   state.counters["checksum"] = checksum;
@@ -111,14 +114,16 @@ void bond_step(benchmark::State& state) {
   using namespace simulation;
   struct Bead {};
   const Lattice& l = lattice();
-  auto body = scene<integrator::Leapfrog>(geometry::Box<3>::unbounded(), group<Bead>("beads", particles::Mobile{}, geometry::Points<3>{l.positions}, 1.0),
+  auto body = scene<integrator::Leapfrog>(geometry::Box<3>::unbounded(),
+                                          group<Bead>("beads", particles::Mobile{}, geometry::Points<3>{l.positions}, 1.0),
                                           bonds<Bead, Bead>(bond::Harmonic{.stiffness = 100.0}, l.bonds));
   constexpr double time_step = 0.01;
   constexpr int steps = 100;
   body.run({.until = time_step, .time_step = time_step});
   for (auto _ : state) body.run({.until = body.time() + steps * time_step, .time_step = time_step});
   state.counters["ns/bond"] =
-      benchmark::Counter(1e-9 * steps * static_cast<double>(l.bonds.size()) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+      benchmark::Counter(1e-9 * steps * static_cast<double>(l.bonds.size()) * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 }  // namespace

@@ -82,8 +82,8 @@ def networks(program, folder):
                 tuning, rest = (mean(lambda row: float(row[name])) for name in ("tuning [s]", "state of rest [s]"))
                 solves, iterations = (mean(lambda row: float(row[f"tuning {name} [-]"])) for name in ("solves", "iterations"))
                 bound = f"{TUNING_BOUNDS[variant]} s" if edge == 10 else ""
-                tunings.append(f"| {variant} | {seeds[0]['springs [-]']} | {solves:.0f} | {iterations / solves:.0f} | {tuning / rest:.1f} | "
-                               f"{tuning:.2g} s | {bound} |")
+                tunings.append(f"| {variant} | {seeds[0]['springs [-]']} | {solves:.0f} | {iterations / solves:.0f} | "
+                               f"{tuning / rest:.1f} | {tuning:.2g} s | {bound} |")
     lines = ["| variant | springs | solves | iterations of each | states of rest that take as long | run time | specified (B12) |",
              "|---|---|---|---|---|---|---|", *sorted(tunings, reverse=True, key=lambda line: line.startswith("| kL"))]
     return [with_order(points) for points in curves.values()], "\n".join(lines)

@@ -1,5 +1,5 @@
-// What including dmp costs a build: seconds and peak memory of the compiler for one law header, for the umbrella, and for the examples, at -O2.
-// Compiler, include paths and project folder come from the build system (bench/CMakeLists.txt).
+// What including dmp costs a build: seconds and peak memory of the compiler for one law header, for the umbrella, and for the examples, at
+// -O2. Compiler, include paths and project folder come from the build system (bench/CMakeLists.txt).
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -42,7 +42,8 @@ Cost measure(const std::string& command) {
 
 int main() {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // it takes minutes: show each line as it is known
-  const std::string compile = std::string(DMP_COMPILER) + " -std=c++20 -O2 -march=native -I" + DMP_SOURCE + "/include -I" + DMP_SOURCE + "/examples -isystem " + DMP_EIGEN;
+  const std::string compile = std::string(DMP_COMPILER) + " -std=c++20 -O2 -march=native -I" + DMP_SOURCE + "/include -I" + DMP_SOURCE +
+                              "/examples -isystem " + DMP_EIGEN;
   char folder[] = "/tmp/dmp-compile-cost-XXXXXX";
   if (mkdtemp(folder) == nullptr) return EXIT_FAILURE;
   const std::string temporary = folder, source = temporary + "/unit.cpp", object = temporary + "/unit.o";

@@ -1,7 +1,7 @@
 // What is left out of a scene, and what it would cost. Three scenes in 3D, alone and with one thing more: a liquid (weakly compressible
-// SPH, Wendland C2, support h = 2.6 spacings, Morris' viscosity, Tait's equation, a row of vortices), a solid of springs (six to each bead), and
-// heat in a body at rest. Periodic box, 46 656 particles, one thread. Each is timed in turns with the scene alone: processor time of 30
-// steps, seven times; the ratio is the median of those of neighbouring turns.
+// SPH, Wendland C2, support h = 2.6 spacings, Morris' viscosity, Tait's equation, a row of vortices), a solid of springs (six to each
+// bead), and heat in a body at rest. Periodic box, 46 656 particles, one thread. Each is timed in turns with the scene alone: processor
+// time of 30 steps, seven times; the ratio is the median of those of neighbouring turns.
 #include <algorithm>
 #include <array>
 #include <cmath>

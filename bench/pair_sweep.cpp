@@ -1,6 +1,6 @@
-// The pair sweep of 3D weakly compressible SPH (Wendland C2, support 2.6 spacings, about 72 neighbours, Monaghan's artificial viscosity), one
-// core, records in double and in single precision: composed from policies, and the same formulas written by hand over the same records and lists. The counter ns/pair is per
-// directed pair, as in the yardstick's output.
+// The pair sweep of 3D weakly compressible SPH (Wendland C2, support 2.6 spacings, about 72 neighbours, Monaghan's artificial viscosity),
+// one core, records in double and in single precision: composed from policies, and the same formulas written by hand over the same records
+// and lists. The counter ns/pair is per directed pair, as in the yardstick's output.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -86,7 +86,8 @@ template <class Precision>
 void report(benchmark::State& state) {
   const auto& s = sample<Precision>();
   state.counters["neighbours"] = s.count / static_cast<double>(s.positions.size());
-  state.counters["ns/pair"] = benchmark::Counter(1e-9 * s.count * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["ns/pair"] = benchmark::Counter(1e-9 * s.count * static_cast<double>(state.iterations()),
+                                                 benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   double checksum = 0.0;
   for (const auto& rate : s.rates)
     for (const double x : rate) checksum += x * x;

@@ -26,13 +26,15 @@ std::string ratio(const Case& c) {
 }
 
 void print_laws(const char* name, const std::vector<Case>& cases) {
-  std::printf("table: %s\n| law | scene | bound [s] | whose | blow-up [s] | blow-up / bound | stopped by an error at | why not sharp |\n", name);
+  std::printf("table: %s\n| law | scene | bound [s] | whose | blow-up [s] | blow-up / bound | stopped by an error at | why not sharp |\n",
+              name);
   std::printf("|---|---|---|---|---|---|---|---|\n");
   for (const auto& c : cases) {
     const double found = largest_stable(c, steps);
     const Outcome past = c.run(c.stopped * c.stated, steps);
     std::printf("| %s | %s | %.4g | %s | %.4g | %.2f | %.1f of the bound, step %llu | %s |\n", c.law.c_str(), c.scene.c_str(), c.stated,
-                c.bound_by.c_str(), found * c.stated, found, c.stopped, static_cast<unsigned long long>(past.where.step), found >= 1.505 ? c.why.c_str() : "");
+                c.bound_by.c_str(), found * c.stated, found, c.stopped, static_cast<unsigned long long>(past.where.step),
+                found >= 1.505 ? c.why.c_str() : "");
     std::fflush(stdout);
   }
 }

@@ -39,8 +39,8 @@ auto fluid(int n, double skin) {
 }
 
 void per_particle(benchmark::State& state, std::size_t particles, std::uint64_t steps) {
-  state.counters["ns/particle"] =
-      benchmark::Counter(1e-9 * static_cast<double>(particles) * static_cast<double>(steps), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["ns/particle"] = benchmark::Counter(1e-9 * static_cast<double>(particles) * static_cast<double>(steps),
+                                                     benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 /// Arguments: particles along a side, threads, skin in thousandths of the support (0: as a scene chooses it).

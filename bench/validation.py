@@ -8,9 +8,9 @@ comments of the examples.
 One thread, one example at a time, some ten minutes; run times are processor times of the whole program and count on an idle machine.
 `validation.py check` compares the result of one run with validation.csv: the tests documented_EXAMPLE_SIZE. An error may differ from the
 documented one by 1 % of it, or by a thousandth of its bound if that is more; in the runs of CHAOTIC, which amplify rounding, and where the
-bound itself is one of rounding (below 1e-9), by a quarter of the bound. The names and bounds of the errors and the number of particles must be
-those documented, and so must what bound the time step, and how far: the shares of a bound that a given step takes to one percent of it, the number
-of steps to 1 %, of CHAOTIC runs to 5 %. docs/validation.md says why.
+bound itself is one of rounding (below 1e-9), by a quarter of the bound. The names and bounds of the errors and the number of particles must
+be those documented, and so must what bound the time step, and how far: the shares of a bound that a given step takes to one percent of
+it, the number of steps to 1 %, of CHAOTIC runs to 5 %. docs/validation.md says why.
 """
 import csv
 import json

@@ -86,7 +86,8 @@ Sample observe(const Scene& scene, const Dam<Dim>& dam, const eos::Tait& eos) {
   const double half = 2.0 * dam.spacing;  // a gauge reads the volume of water that stands on a patch of this half width
   const Vector<Dim> skin = Vector<Dim>::Constant(dam.spacing);
   const Cuboid<Dim> around{.lower = dam.tank.lower - skin, .upper = dam.tank.upper + skin};
-  Sample sample{.time = scene.time(), .front = 0.0, .kinetic = 0.0, .potential = 0.0, .elastic = 0.0, .lightest = 0.0, .heaviest = 0.0, .variation = 0.0, .escaped = 0,
+  Sample sample{.time = scene.time(), .front = 0.0, .kinetic = 0.0, .potential = 0.0, .elastic = 0.0,
+                .lightest = 0.0, .heaviest = 0.0, .variation = 0.0, .escaped = 0,
                 .levels = std::vector<double>(dam.gauges.size(), 0.0)};
   const auto elastic = [&eos](double rho) {  // integral of p/rho^2 [J/kg]
     const double x = rho / eos.rest_density, n = eos.exponent - 1.0;
@@ -122,7 +123,9 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
   const double sound_speed = 10.0 * std::sqrt(2.0 * gravity * dam.depth);  // [m/s]
   const eos::Tait eos{.rest_density = density, .sound_speed_0 = sound_speed};
   const sph::WeaklyCompressible<kernel::WendlandC2<Dim>, viscosity::Artificial, diffusion::MolteniColagrossi> flow{
-      .kernel = {.support_radius = 2.6 * dam.spacing}, .viscosity = {.alpha = 0.02, .sound_speed = sound_speed}, .diffusion = {.sound_speed = sound_speed}};
+      .kernel = {.support_radius = 2.6 * dam.spacing},
+      .viscosity = {.alpha = 0.02, .sound_speed = sound_speed},
+      .diffusion = {.sound_speed = sound_speed}};
   forcing::Constant<Dim> weight{.uniform_acceleration = Components<Dim, double>{}};
   weight.uniform_acceleration.value[Dim - 1] = -gravity;
 
@@ -130,9 +133,9 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
   const Vector<Dim> margin = Vector<Dim>::Constant((wall_layers + 1) * dam.spacing);
   const double mass = density * dam.water.volume;
   auto tank = scene<integrator::ExtrapolatedVerlet>(
-      geometry::Box<Dim>{.lower = dam.tank.lower - margin, .upper = dam.tank.upper + margin}, group<Water>(dam.name + "_water", Mobile{}, dam.water, mass),
-      group<Wall>(dam.name + "_wall", Stationary{}, dam.wall, mass), interaction<Water, Water>(flow), interaction<Water, Wall>(flow),
-      material<Water, Wall>(eos), forced_by<Water>(weight));
+      geometry::Box<Dim>{.lower = dam.tank.lower - margin, .upper = dam.tank.upper + margin},
+      group<Water>(dam.name + "_water", Mobile{}, dam.water, mass), group<Wall>(dam.name + "_wall", Stationary{}, dam.wall, mass),
+      interaction<Water, Water>(flow), interaction<Water, Wall>(flow), material<Water, Wall>(eos), forced_by<Water>(weight));
   const auto at_release = [&](const Vector<Dim>& x) {
     const double sign = dam.tank.lower[0] < dam.closed_end - 0.5 * dam.width ? -1.0 : 1.0;
     return eos.density(released_pressure(sign * (x[0] - dam.closed_end), x[Dim - 1], dam.width, dam.depth));
@@ -140,8 +143,9 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
   tank.engine().for_each_group([&](auto& g) { g.template set<field::Density>(at_release); });
 
   // Observation
-  std::vector<io::Column> columns{{"time", "s"}, {"front", "m"}, {"kinetic energy", "J"}, {"potential energy", "J"}, {"elastic energy", "J"},
-                                  {"lowest density/rest - 1", "-"}, {"highest density/rest - 1", "-"}, {"particles lost", "-"}};
+  std::vector<io::Column> columns{{"time", "s"}, {"front", "m"}, {"kinetic energy", "J"}, {"potential energy", "J"},
+                                  {"elastic energy", "J"}, {"lowest density/rest - 1", "-"}, {"highest density/rest - 1", "-"},
+                                  {"particles lost", "-"}};
   for (const auto& gauge : dam.gauges) {
     std::string name = "level at x = ";
     columns.push_back({name += to_text(gauge[0]), "m"});
@@ -175,8 +179,10 @@ std::vector<Sample> collapse(const Dam<Dim>& dam, const io::OutputFolder& folder
   const double mach = 2.0 * std::sqrt(gravity * dam.depth) / sound_speed;  // of the fastest front that shallow water allows
   const double available = 0.5 * mass * static_cast<double>(dam.water.positions.size()) * gravity * dam.depth;  // [J]
   result.error(of + "particles lost", lost, 0.0, "impermeable");
-  result.error(of + "growth of the total energy/initial", growth / available, 1e-3, "pressure conserves, viscosity and diffusion dissipate");
-  result.error(of + "dissipated/initial energy", (history.front().energy() - history.back().energy()) / available, 1.0 - dam.width / dam.tank_length(), "all, when the water has come to rest");
+  result.error(of + "growth of the total energy/initial", growth / available, 1e-3,
+               "pressure conserves, viscosity and diffusion dissipate");
+  result.error(of + "dissipated/initial energy", (history.front().energy() - history.back().energy()) / available,
+               1.0 - dam.width / dam.tank_length(), "all, when the water has come to rest");
   result.error(of + "variation of density, rms", variation, mach * mach, "Mach number squared");
   result.error(of + "variation of density, largest", peak, mach, "water hammer: Mach number");
   return history;
@@ -207,8 +213,9 @@ double at(const std::vector<Sample>& history, double time, Quantity quantity) {
 struct FrontPoint {
   double time, front;
 };
-constexpr std::array<FrontPoint, 13> martin_moyce{{{0.41, 1.11}, {0.84, 1.22}, {1.19, 1.44}, {1.43, 1.67}, {1.63, 1.89}, {1.83, 2.11}, {1.98, 2.33},
-                                                   {2.20, 2.56}, {2.32, 2.78}, {2.51, 3.00}, {2.65, 3.22}, {2.83, 3.44}, {2.98, 3.67}}};
+constexpr std::array<FrontPoint, 13> martin_moyce{{{0.41, 1.11}, {0.84, 1.22}, {1.19, 1.44}, {1.43, 1.67}, {1.63, 1.89},
+                                                   {1.83, 2.11}, {1.98, 2.33}, {2.20, 2.56}, {2.32, 2.78}, {2.51, 3.00},
+                                                   {2.65, 3.22}, {2.83, 3.44}, {2.98, 3.67}}};
 constexpr double inch_column = 0.05715;  // a [m]
 
 void column(int across, double end, const io::OutputFolder& folder, example::Result& result) {
@@ -217,25 +224,27 @@ void column(int across, double end, const io::OutputFolder& folder, example::Res
   const geometry::Cubic<2> lattice{.spacing = spacing};
   const Vector<2> layers = Vector<2>::Constant(wall_layers * spacing);
   const Cuboid<2> tank{.lower = {0.0, 0.0}, .upper = {4.0 * a, 10.0 * a}};  // so high that no splash leaves it
-  const auto history = collapse<2>({.name = "column",
-                                    .spacing = spacing,
-                                    .water = fill(lattice, {.lower = {0.0, 0.0}, .upper = {a, 2.0 * a}}),
-                                    .wall = fill(lattice, {.lower = tank.lower - layers, .upper = {tank.upper[0] + layers[0], tank.upper[1]}}, !tank),
-                                    .tank = tank,
-                                    .closed_end = 0.0,
-                                    .width = a,
-                                    .depth = 2.0 * a,
-                                    .gauges = {{2.0 * spacing, 0.0}, {a, 0.0}, {2.0 * a, 0.0}, {3.0 * a, 0.0}, {4.0 * a - 2.0 * spacing, 0.0}},
-                                    .end_time = end * unit,
-                                    .interval = 0.02 * unit},
-                                   folder, result);
+  const auto history =
+      collapse<2>({.name = "column",
+                   .spacing = spacing,
+                   .water = fill(lattice, {.lower = {0.0, 0.0}, .upper = {a, 2.0 * a}}),
+                   .wall = fill(lattice, {.lower = tank.lower - layers, .upper = {tank.upper[0] + layers[0], tank.upper[1]}}, !tank),
+                   .tank = tank,
+                   .closed_end = 0.0,
+                   .width = a,
+                   .depth = 2.0 * a,
+                   .gauges = {{2.0 * spacing, 0.0}, {a, 0.0}, {2.0 * a, 0.0}, {3.0 * a, 0.0}, {4.0 * a - 2.0 * spacing, 0.0}},
+                   .end_time = end * unit,
+                   .interval = 0.02 * unit},
+                  folder, result);
   // The gate of the experiment takes its time to open: times count from where Z = 1.44.
   const FrontPoint& start = martin_moyce[2];
   const double shift = start.time - arrival(history, start.front * a) / unit;
   double deviation = 0.0, overtaking = 0.0;
   for (const FrontPoint& point : martin_moyce)
     if (point.time > start.time)
-      deviation = std::max(deviation, std::abs(at(history, (point.time - shift) * unit, [](const Sample& s) { return s.front; }) / (point.front * a) - 1.0));
+      deviation = std::max(
+          deviation, std::abs(at(history, (point.time - shift) * unit, [](const Sample& s) { return s.front; }) / (point.front * a) - 1.0));
   for (const Sample& s : history) overtaking = std::max(overtaking, s.front / a - 1.0 - 2.0 * s.time / unit - 0.5 / across);
   std::printf("column: the front of the experiment is %.2f sqrt(a/2g) late at Z = 1.44\n", shift);
   result.error("column: front, relative, Z = 1.67 to 3.67", deviation, 0.05, "Martin and Moyce table 2; their two columns differ by 4 %");
@@ -244,9 +253,11 @@ void column(int across, double end, const io::OutputFolder& folder, example::Res
   std::string points;
   for (const FrontPoint& point : martin_moyce) points += to_text(point.time - shift) + " " + to_text(point.front) + "\n";
   io::plot(folder, "column",
-           "set datafile separator ','\n$experiment << EOD\n" + points + "EOD\nset xlabel 't sqrt(2g/a)'\nset ylabel 'surge front/a'\nset key bottom right\nset xrange [0:4]\n"
-           "plot 'column.csv' using ($1/" + to_text(unit) + "):($2/" + to_text(a) + ") skip 1 with lines lw 2 title 'dmp', $experiment using "
-           "(real(word(strcol(1), 1))):(real(word(strcol(1), 2))) with points pt 6 ps 2 title 'Martin and Moyce 1952, from Z = 1.44'");
+           "set datafile separator ','\n$experiment << EOD\n" + points + "EOD\n"
+           "set xlabel 't sqrt(2g/a)'\nset ylabel 'surge front/a'\nset key bottom right\nset xrange [0:4]\n"
+           "plot 'column.csv' using ($1/" + to_text(unit) + "):($2/" + to_text(a) + ") skip 1 with lines lw 2 title 'dmp', "
+           "$experiment using (real(word(strcol(1), 1))):(real(word(strcol(1), 2))) with points pt 6 ps 2 "
+           "title 'Martin and Moyce 1952, from Z = 1.44'");
 }
 
 /// Water levels of the experiment of MARIN, as the example 3d-dam-break of Lethe holds them, sampled where no splash is on the gauge.
@@ -254,10 +265,11 @@ struct Level {
   std::size_t gauge;
   double time, level;  // [s], [m]
 };
-constexpr std::array<Level, 20> marin{{{3, 0.2, 0.511}, {3, 0.3, 0.486}, {3, 0.4, 0.460}, {3, 0.5, 0.428}, {3, 0.6, 0.395}, {3, 0.7, 0.363}, {3, 1.0, 0.279},
-                                       {3, 1.1, 0.254}, {3, 1.45, 0.188}, {2, 0.3, 0.070}, {2, 0.4, 0.099}, {2, 0.6, 0.115}, {2, 0.7, 0.124}, {2, 1.0, 0.155},
-                                       {2, 1.1, 0.158}, {1, 0.4, 0.046}, {1, 0.6, 0.119}, {1, 0.7, 0.131}, {1, 1.0, 0.179}, {1, 1.1, 0.186}}};
-constexpr std::array<double, 4> gauges{0.496, 0.992, 1.488, 2.638};  // x [m]; the box is between the first two, the last is in the reservoir
+constexpr std::array<Level, 20> marin{{{3, 0.2, 0.511}, {3, 0.3, 0.486}, {3, 0.4, 0.460}, {3, 0.5, 0.428},  {3, 0.6, 0.395},
+                                       {3, 0.7, 0.363}, {3, 1.0, 0.279}, {3, 1.1, 0.254}, {3, 1.45, 0.188}, {2, 0.3, 0.070},
+                                       {2, 0.4, 0.099}, {2, 0.6, 0.115}, {2, 0.7, 0.124}, {2, 1.0, 0.155},  {2, 1.1, 0.158},
+                                       {1, 0.4, 0.046}, {1, 0.6, 0.119}, {1, 0.7, 0.131}, {1, 1.0, 0.179},  {1, 1.1, 0.186}}};
+constexpr std::array<double, 4> gauges{0.496, 0.992, 1.488, 2.638};  // x [m]; the box is between the first two, the last in the reservoir
 
 /// The tank of the experiment is 1 m high and open. Here its walls may be higher, so that no splash leaves it.
 void reservoir(int deep, double end, double height, const io::OutputFolder& folder, example::Result& result) {
@@ -271,18 +283,20 @@ void reservoir(int deep, double end, double height, const io::OutputFolder& fold
   const Cuboid<3> box{.lower = {whole(0.6635), whole(0.2985), 0.0}, .upper = {whole(0.8245), whole(0.7015), whole(0.161)}};
   std::vector<Vector<3>> places;
   for (const double x : gauges) places.emplace_back(x, 0.5, 0.0);
-  const auto history = collapse<3>({.name = "reservoir",
-                                    .spacing = spacing,
-                                    .water = fill(lattice, {.lower = {gate, 0.0, 0.0}, .upper = {length, breadth, depth}}),
-                                    .wall = fill(lattice, {.lower = tank.lower - layers, .upper = {length + layers[0], breadth + layers[1], tank.upper[2]}}, (!tank) | box),
-                                    .tank = tank,
-                                    .closed_end = length,
-                                    .width = length - gate,
-                                    .depth = depth,
-                                    .gauges = places,
-                                    .end_time = end,
-                                    .interval = 0.01},
-                                   folder, result);
+  const auto history =
+      collapse<3>({.name = "reservoir",
+                   .spacing = spacing,
+                   .water = fill(lattice, {.lower = {gate, 0.0, 0.0}, .upper = {length, breadth, depth}}),
+                   .wall = fill(lattice, {.lower = tank.lower - layers, .upper = {length + layers[0], breadth + layers[1], tank.upper[2]}},
+                                (!tank) | box),
+                   .tank = tank,
+                   .closed_end = length,
+                   .width = length - gate,
+                   .depth = depth,
+                   .gauges = places,
+                   .end_time = end,
+                   .interval = 0.01},
+                  folder, result);
   std::array<double, 4> deviation{};
   std::string points;
   for (const Level& point : marin) {
@@ -292,20 +306,23 @@ void reservoir(int deep, double end, double height, const io::OutputFolder& fold
     deviation[point.gauge] = std::max(deviation[point.gauge], std::abs(level - point.level) / depth);
   }
   for (const std::size_t gauge : {3u, 2u, 1u})
-    result.error(std::string("reservoir: level at x = ").append(to_text(gauges[gauge])).append(" m/depth"), deviation[gauge], 0.03 + 1.0 / deep, "MARIN: a spacing, and the delay of the gate");
+    result.error(std::string("reservoir: level at x = ").append(to_text(gauges[gauge])).append(" m/depth"), deviation[gauge],
+                 0.03 + 1.0 / deep, "MARIN: a spacing, and the delay of the gate");
 
   io::plot(folder, "reservoir",
            "set datafile separator ','\n$experiment << EOD\n" + points + "EOD\nset xlabel 't [s]'\nset ylabel 'water level [m]'\n"
-           "plot for [k=10:12] 'reservoir.csv' using 1:k skip 1 with lines lw 2 title 'dmp, x = '.word('0.992 1.488 2.638', k - 9).' m', $experiment using "
-           "(real(word(strcol(1), 1))):(real(word(strcol(1), 2))) with points pt 6 ps 2 title 'MARIN'");
+           "plot for [k=10:12] 'reservoir.csv' using 1:k skip 1 with lines lw 2 title 'dmp, x = '.word('0.992 1.488 2.638', k - 9).' m', "
+           "$experiment using (real(word(strcol(1), 1))):(real(word(strcol(1), 2))) with points pt 6 ps 2 title 'MARIN'");
 }
 
 int run(const example::Options& options) {
   const bool quick = options.size == example::Size::quick, full = options.size == example::Size::full;
   const int across = options.resolutions({12}, {24}, {50}).front(), deep = quick ? 10 : full ? 40 : 20;
   const io::OutputFolder folder(options.output);
-  example::Result result{.example = "dam_break", .test_case = "Martin and Moyce; SPHERIC 2",
-                         .resolution = to_text(2 * across) + " particles in the height of the column, " + to_text(deep) + " in that of the reservoir"};
+  example::Result result{
+      .example = "dam_break",
+      .test_case = "Martin and Moyce; SPHERIC 2",
+      .resolution = to_text(2 * across) + " particles in the height of the column, " + to_text(deep) + " in that of the reservoir"};
   if (options.resolution > 0) {  // the column alone, until the front has come farther than in the experiment
     column(across, 5.0, folder, result);
     return result.print(folder);
@@ -318,6 +335,8 @@ int run(const example::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::guarded("dam_break", run, example::options(argc, argv, "dam_break", "Dam breaks: a collapsing column (2D), a reservoir over a box (3D); compared with experiments.",
-                                            {.least_resolution = 8}));
+  return example::guarded("dam_break", run,
+                          example::options(argc, argv, "dam_break",
+                                           "Dam breaks: a collapsing column (2D), a reservoir over a box (3D); compared with experiments.",
+                                           {.least_resolution = 8}));
 }

@@ -241,8 +241,8 @@ int run(const example::Options& options) {
       const std::string of = ", R = 32 l, " + row.q.name + ": ";
       for (std::size_t n = 0; n < 4; ++n) {
         const double ratio = 0.025 * static_cast<double>(n + 1);
-        std::printf("  F/(k l) at %4.1f %%: %8.3f, independent solver %8.3f\n", 100.0 * ratio, force_at(found.curve, ratio) / (stiffness * radius / 32),
-                    row.force[n]);
+        std::printf("  F/(k l) at %4.1f %%: %8.3f, independent solver %8.3f\n", 100.0 * ratio,
+                    force_at(found.curve, ratio) / (stiffness * radius / 32), row.force[n]);
       }
       if (&row.q == &along_layers) {
         // A flat punch, no Hertz contact, whose E depends on which points are fitted: 1.14 of steps of 0.5 %, from the first one on.

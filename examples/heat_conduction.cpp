@@ -216,7 +216,8 @@ int run(const example::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::guarded("heat_conduction", run,
-                          example::options(argc, argv, "heat_conduction",
-                                           "Heat conduction inside and between phases against exact solutions (HX-1, HX-2, HX-3).", {.least_resolution = 10}));
+  return example::guarded(
+      "heat_conduction", run,
+      example::options(argc, argv, "heat_conduction",
+                       "Heat conduction inside and between phases against exact solutions (HX-1, HX-2, HX-3).", {.least_resolution = 10}));
 }

@@ -51,7 +51,8 @@ struct Outcome {
 
 enum class Start { hydrostatic, uniform };
 
-Outcome settle(Start start, int rows, double end, const example::Options& options, const io::OutputFolder& folder, example::Result& result) {
+Outcome settle(Start start, int rows, double end, const example::Options& options, const io::OutputFolder& folder,
+               example::Result& result) {
   const double spacing = depth / rows, thickness = 3.0 * spacing;  // of the walls [m]
   const double h = thickness;                                      // support radius [m]: no particle sees through a wall
   const std::string name = start == Start::hydrostatic ? "hydrostatic" : "uniform";
@@ -111,11 +112,13 @@ Outcome settle(Start start, int rows, double end, const example::Options& option
     return state;
   };
   Outcome outcome;
-  io::CsvTable table(folder / (name + ".csv"), {{"time", "s"}, {"kinetic energy / m g H", "-"}, {"height of the centre of mass", "m"},
-                                                {"L2 of the pressure / rho g H", "-"}, {"pressure error of the wall / rho g H", "-"}, {"leaked", "-"}});
+  io::CsvTable table(folder / (name + ".csv"), {{"time", "s"}, {"kinetic energy / m g H", "-"},
+                                                {"height of the centre of mass", "m"}, {"L2 of the pressure / rho g H", "-"},
+                                                {"pressure error of the wall / rho g H", "-"}, {"leaked", "-"}});
   tank.every(0.02, [&](const auto& scene) {
     const State state = observe(scene);
-    table.row({scene.time(), state.kinetic_energy, state.centre[1], state.pressure_error, state.wall_error, static_cast<double>(state.leaked)});
+    table.row(
+        {scene.time(), state.kinetic_energy, state.centre[1], state.pressure_error, state.wall_error, static_cast<double>(state.leaked)});
     if (scene.step() == 0) outcome.start = state;
     if (scene.time() < 0.501 * end) outcome.middle = state;
     outcome.end = state;
@@ -136,7 +139,8 @@ int run(const example::Options& options) {
   const double end = options.size == example::Size::quick ? 4.0 : 10.0;  // [s]
   const double spacing = depth / rows;
   const io::OutputFolder folder(options.output);
-  example::Result result{.example = "hydrostatic", .test_case = "2D tank", .resolution = std::to_string(rows) + " x " + std::to_string(rows) + " particles"};
+  example::Result result{
+      .example = "hydrostatic", .test_case = "2D tank", .resolution = std::to_string(rows) + " x " + std::to_string(rows) + " particles"};
 
   for (const Start start : {Start::hydrostatic, Start::uniform}) {
     const Outcome outcome = settle(start, rows, end, options, folder, result);
@@ -157,22 +161,29 @@ int run(const example::Options& options) {
     // A column of uniform density sinks until it is compressed; that sets energy free, at first as motion.
     const double sinks = depth * mach_squared / 3.0;  // [m], of the centre of mass
     const double expected = 0.5 * depth - (is_uniform ? sinks : 0.0);
-    result.error("height of the centre / spacing" + of, (outcome.end.centre[1] - expected) / spacing, is_uniform ? 0.05 : 0.01, "compressed column: -g H^2/(3 c^2)");
+    result.error("height of the centre / spacing" + of, (outcome.end.centre[1] - expected) / spacing, is_uniform ? 0.05 : 0.01,
+                 "compressed column: -g H^2/(3 c^2)");
     result.error("drift, second half / spacing" + of, (outcome.end.centre - outcome.middle.centre).norm() / spacing, 0.005, "rest");
-    result.error("kinetic energy / energy set free" + of, outcome.end.kinetic_energy / (sinks / depth), 1e-4, "at rest; damping leaves 2e-5 after 4 s");
+    result.error("kinetic energy / energy set free" + of, outcome.end.kinetic_energy / (sinks / depth), 1e-4,
+                 "at rest; damping leaves 2e-5 after 4 s");
     result.error("particles outside the tank" + of, outcome.most_leaked, 0.0, "impermeable");
-    std::printf("kinetic energy / m g H%s: highest %.2e, at the end %.2e\n", of.c_str(), outcome.highest_energy, outcome.end.kinetic_energy);
+    std::printf("kinetic energy / m g H%s: highest %.2e, at the end %.2e\n", of.c_str(), outcome.highest_energy,
+                outcome.end.kinetic_energy);
   }
   io::plot(folder, "hydrostatic",
            "set datafile separator ','\nset multiplot layout 1,2\nset xlabel 't [s]'\nset logscale y\nset ylabel 'kinetic energy / m g H'\n"
-           "plot 'hydrostatic.csv' using 1:2 skip 1 with lines title 'hydrostatic start', 'uniform.csv' using 1:2 skip 1 with lines title 'uniform start'\n"
+           "plot 'hydrostatic.csv' using 1:2 skip 1 with lines title 'hydrostatic start', "
+           "'uniform.csv' using 1:2 skip 1 with lines title 'uniform start'\n"
            "set ylabel 'L2 of the pressure / rho g H'\n"
-           "plot 'hydrostatic.csv' using 1:4 skip 1 with lines title 'hydrostatic start', 'uniform.csv' using 1:4 skip 1 with lines title 'uniform start'\nunset multiplot");
+           "plot 'hydrostatic.csv' using 1:4 skip 1 with lines title 'hydrostatic start', "
+           "'uniform.csv' using 1:4 skip 1 with lines title 'uniform start'\nunset multiplot");
   return result.print(folder);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::guarded("hydrostatic", run, example::options(argc, argv, "hydrostatic", "Liquid at rest in an open tank: pressure against rho g (H - y).", {.least_resolution = 10, .safety = true}));
+  return example::guarded("hydrostatic", run,
+                          example::options(argc, argv, "hydrostatic", "Liquid at rest in an open tank: pressure against rho g (H - y).",
+                                           {.least_resolution = 10, .safety = true}));
 }

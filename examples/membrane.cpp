@@ -49,7 +49,8 @@ Geometry tube_with_membrane() {
   Points<2> chain = geometry::line<2>({45.5 * spacing, -0.5 * spacing}, {45.5 * spacing, 9.5 * spacing}, bead_spacing);
   result.wall.positions.push_back(chain.positions.front());
   result.wall.positions.push_back(chain.positions.back());
-  result.membrane = {.positions = {chain.positions.begin() + 1, chain.positions.end() - 1}, .spacing = bead_spacing, .volume = chain.volume};
+  result.membrane = {
+      .positions = {chain.positions.begin() + 1, chain.positions.end() - 1}, .spacing = bead_spacing, .volume = chain.volume};
   const auto beads = static_cast<std::uint32_t>(result.membrane.positions.size());
   for (std::uint32_t bead = 0; bead + 1 < beads; ++bead) result.chain.push_back({bead, bead + 1, bead_spacing});
   result.anchors = {{0, first_anchor, bead_spacing}, {beads - 1, first_anchor + 1, bead_spacing}};
@@ -60,8 +61,8 @@ Geometry tube_with_membrane() {
 struct Reference {
   double time, mean_density, tip;  // [s], [kg/m^3] over all particles, [m]
 };
-constexpr std::array<Reference, 6> references{
-    {{0.1, 1034.23, 5.3119e-3}, {0.2, 1061.64, 5.6576e-3}, {0.5, 1113.80, 6.3136e-3}, {1.0, 1138.52, 6.9972e-3}, {2.0, 1153.18, 7.6287e-3}, {2.5, 1153.44, 7.7115e-3}}};
+constexpr std::array<Reference, 6> references{{{0.1, 1034.23, 5.3119e-3}, {0.2, 1061.64, 5.6576e-3}, {0.5, 1113.80, 6.3136e-3},
+                                               {1.0, 1138.52, 6.9972e-3}, {2.0, 1153.18, 7.6287e-3}, {2.5, 1153.44, 7.7115e-3}}};
 
 struct State {
   double tip = 0.0, mean_density = 0.0, fastest = 0.0;
@@ -76,7 +77,8 @@ State observe(const Scene& scene) {
   State state;
   for (const auto& x : membrane.positions()) state.tip = std::max(state.tip, x[0]);
   double sum = 0.0;
-  for (const auto* densities : {&liquid.template get<field::Density>(), &wall.template get<field::Density>(), &membrane.template get<field::Density>()})
+  for (const auto* densities :
+       {&liquid.template get<field::Density>(), &wall.template get<field::Density>(), &membrane.template get<field::Density>()})
     for (const double rho : *densities) sum += rho;
   state.mean_density = sum / static_cast<double>(scene.particles());
   for (const auto& v : liquid.template get<field::Velocity>()) state.fastest = std::max(state.fastest, v[0]);
@@ -104,19 +106,22 @@ int run(const example::Options& options) {
   const forcing::Drag drag{.coefficient = 0.01};
 
   // Scene
-  const geometry::Box<2> box{.lower = {-5.0 * spacing, -40.0 * spacing}, .upper = {105.0 * spacing, 49.0 * spacing}, .periodic = {true, true}};
+  const geometry::Box<2> box{
+      .lower = {-5.0 * spacing, -40.0 * spacing}, .upper = {105.0 * spacing, 49.0 * spacing}, .periodic = {true, true}};
   auto balloon = scene<integrator::ExtrapolatedVerlet>(
       box, group<Liquid>("liquid", Mobile{}, tube.liquid, mass), group<Wall>("wall", Stationary{}, tube.wall, mass),
-      group<Membrane>("membrane", Mobile{}, tube.membrane, 0.1 * mass),
-      interaction<Liquid, Liquid>(flow, padding), interaction<Liquid, Wall>(flow, padding), interaction<Liquid, Membrane>(flow, barrier),
+      group<Membrane>("membrane", Mobile{}, tube.membrane, 0.1 * mass), interaction<Liquid, Liquid>(flow, padding),
+      interaction<Liquid, Wall>(flow, padding), interaction<Liquid, Membrane>(flow, barrier),
       interaction<Wall, Membrane>(padding).excluding_bonded(3), interaction<Membrane, Membrane>(between_beads).excluding_bonded(3),
       bonds<Membrane, Membrane>(spring, tube.chain), bonds<Membrane, Wall>(spring, tube.anchors),
-      material<Liquid, Wall, Membrane>(eos::Tait{.rest_density = density, .sound_speed_0 = sound_speed}, rheology::Constant{.dynamic_viscosity = 1e-3}),
+      material<Liquid, Wall, Membrane>(eos::Tait{.rest_density = density, .sound_speed_0 = sound_speed},
+                                       rheology::Constant{.dynamic_viscosity = 1e-3}),
       forced_by<Liquid>(push), forced_by<Liquid, Membrane>(drag));
 
   // Observation
   example::Result result{.example = "membrane", .test_case = "DMP-A", .resolution = "9 particles across the tube, 100 bonds"};
-  io::CsvTable table(folder / "membrane.csv", {{"time", "s"}, {"tip", "mm"}, {"mean density", "kg/m^3"}, {"fastest", "m/s"}, {"leaked", "-"}});
+  io::CsvTable table(folder / "membrane.csv",
+                     {{"time", "s"}, {"tip", "mm"}, {"mean density", "kg/m^3"}, {"fastest", "m/s"}, {"leaked", "-"}});
   std::size_t next = 0;
   int leaked = 0;
   balloon.every(0.01, [&](const auto& scene) {
@@ -127,8 +132,10 @@ int run(const example::Options& options) {
     const Reference& reference = references[next++];
     const std::string at = " at " + to_text(reference.time) + " s";
     result.error("tip" + at + ", relative", state.tip / reference.tip - 1.0, 0.005, "LAMMPS 29 Sep 2021, dt = 1e-6 s");
-    result.error("mean density" + at + ", relative", state.mean_density / reference.mean_density - 1.0, 0.003, "LAMMPS 29 Sep 2021, dt = 1e-6 s");
-    if (reference.time == 0.1) result.error("fastest liquid at 0.1 s, relative", state.fastest / 5.1e-3 - 1.0, 0.02, "LAMMPS 29 Sep 2021, dt = 1e-6 s");
+    result.error("mean density" + at + ", relative", state.mean_density / reference.mean_density - 1.0, 0.003,
+                 "LAMMPS 29 Sep 2021, dt = 1e-6 s");
+    if (reference.time == 0.1)
+      result.error("fastest liquid at 0.1 s, relative", state.fastest / 5.1e-3 - 1.0, 0.02, "LAMMPS 29 Sep 2021, dt = 1e-6 s");
   });
   balloon.every(end / 50.0, VtkOutput(folder, "membrane"));
   balloon.rescue_to((folder / "last_good.checkpoint").string()).progress();
@@ -148,18 +155,23 @@ int run(const example::Options& options) {
   std::string lammps;
   for (const Reference& reference : references) lammps += to_text(reference.time) + " " + to_text(1e3 * reference.tip) + "\n";
   io::plot(folder, "membrane",
-           "$lammps << EOD\n" + lammps + "EOD\nset datafile separator ','\nset multiplot layout 2,1\nset size ratio -1\nset xlabel 'x [mm]'\nset ylabel 'y [mm]'\n"
+           "$lammps << EOD\n" + lammps + "EOD\n"
+           "set datafile separator ','\nset multiplot layout 2,1\nset size ratio -1\nset xlabel 'x [mm]'\nset ylabel 'y [mm]'\n"
            "set cblabel 'density [kg/m^3]'\nset key off\nset title 'liquid, wall and membrane at the end of the run'\n"
-           "plot 'particles.csv' using ($1==1?$2:1/0):3 skip 1 with points pt 5 ps 0.7 lc rgb 'gray60', '' using ($1==0?$2:1/0):3:4 skip 1 with points pt 7 ps 0.8 "
-           "lc palette, '' using ($1==2?$2:1/0):3 skip 1 with lines lw 3 lc rgb 'black'\n"
-           "set size noratio\nset title 'tip of the membrane'\nset xlabel 't [s]'\nset ylabel 'x [mm]'\nset key bottom right\nset datafile separator whitespace\n"
-           "plot $lammps using 1:2 with points pt 6 ps 2 title 'LAMMPS', \"<sed 's/,/ /g' membrane.csv\" using 1:2 skip 1 with lines lw 2 title 'dmp'\nunset multiplot");
+           "plot 'particles.csv' using ($1==1?$2:1/0):3 skip 1 with points pt 5 ps 0.7 lc rgb 'gray60', "
+           "'' using ($1==0?$2:1/0):3:4 skip 1 with points pt 7 ps 0.8 lc palette, "
+           "'' using ($1==2?$2:1/0):3 skip 1 with lines lw 3 lc rgb 'black'\n"
+           "set size noratio\nset title 'tip of the membrane'\nset xlabel 't [s]'\nset ylabel 'x [mm]'\nset key bottom right\n"
+           "set datafile separator whitespace\nplot $lammps using 1:2 with points pt 6 ps 2 title 'LAMMPS', "
+           "\"<sed 's/,/ /g' membrane.csv\" using 1:2 skip 1 with lines lw 2 title 'dmp'\nunset multiplot");
   return result.print(folder);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::guarded("membrane", run, example::options(argc, argv, "membrane", "Liquid pushed against an elastic membrane (case DMP-A), compared with LAMMPS.",
-                                                            {.safety = true}));
+  return example::guarded(
+      "membrane", run,
+      example::options(argc, argv, "membrane", "Liquid pushed against an elastic membrane (case DMP-A), compared with LAMMPS.",
+                       {.safety = true}));
 }

@@ -41,7 +41,9 @@ struct Wave {
   double angle = 0.0;                      // Omega t so far [rad]
 
   Wave(int n, int beads)
-      : number(n), wave_number(2.0 * std::numbers::pi * n / (beads * spacing)), frequency(2.0 * std::sqrt(stiffness / mass) * std::sin(std::numbers::pi * n / beads)) {
+      : number(n),
+        wave_number(2.0 * std::numbers::pi * n / (beads * spacing)),
+        frequency(2.0 * std::sqrt(stiffness / mass) * std::sin(std::numbers::pi * n / beads)) {
     for (int i = 0; i < beads; ++i) base.push_back(std::polar(1.0, -wave_number * rest_position(i) - n));
   }
   static double rest_position(int bead) { return (bead + 0.5) * spacing; }
@@ -65,7 +67,8 @@ struct State {
 template <class Scene>
 std::vector<double> displacements(const Scene& ring) {
   std::vector<double> result;
-  for (const auto& x : ring.template group<Beads>().positions()) result.push_back(x[0] - Wave::rest_position(static_cast<int>(result.size())));
+  for (const auto& x : ring.template group<Beads>().positions())
+    result.push_back(x[0] - Wave::rest_position(static_cast<int>(result.size())));
   return result;
 }
 
@@ -87,8 +90,8 @@ State observe(const Scene& ring, double time_step) {
 
 int run(const example::Options& options) {
   const int beads = options.size == example::Size::quick ? 64 : options.size == example::Size::normal ? 256 : 1024;
-  // The time is that of so many steps at a tenth of the largest stable one. Waves are looked at often enough to see them turn, the last time
-  // at the end.
+  // The time is that of so many steps at a tenth of the largest stable one. Waves are looked at often enough to see them turn, the last
+  // time at the end.
   const double fraction = options.safety > 0.0 ? options.safety : own_fraction;
   const double steps_between_looks = std::max(1.0, std::floor(0.8 / fraction + 1e-9));
   const double looks = (options.size == example::Size::quick ? 1e5 : 1e6) * own_fraction / (fraction * steps_between_looks);
@@ -102,12 +105,14 @@ int run(const example::Options& options) {
     points.positions.emplace_back(Wave::rest_position(i));
     chain.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>((i + 1) % beads), spacing});
   }
-  auto ring = scene<example::Integrator<integrator::Leapfrog>>(geometry::Box<1>{.lower = {0.0}, .upper = {beads * spacing}, .periodic = {true}},
-                                          group<Beads>("beads", Mobile{}, points, mass), bonds<Beads, Beads>(spring, chain));
+  auto ring =
+      scene<example::Integrator<integrator::Leapfrog>>(geometry::Box<1>{.lower = {0.0}, .upper = {beads * spacing}, .periodic = {true}},
+                                                       group<Beads>("beads", Mobile{}, points, mass), bonds<Beads, Beads>(spring, chain));
 
   // Waves, from as long as the ring to almost as short as two beads
   std::vector<Wave> waves;
-  for (const int number : {1, beads / 32, beads / 16, beads / 8, beads / 4, 3 * beads / 8, 7 * beads / 16}) waves.emplace_back(number, beads);
+  for (const int number : {1, beads / 32, beads / 16, beads / 8, beads / 4, 3 * beads / 8, 7 * beads / 16})
+    waves.emplace_back(number, beads);
   for (std::size_t i = 0; i < points.positions.size(); ++i)
     for (const Wave& wave : waves) {
       ring.group<Beads>().positions()[i][0] += wave.displacement(i);
@@ -118,7 +123,8 @@ int run(const example::Options& options) {
   const double time_step = fraction * ring.step_limit().time_step, end = steps * time_step;
   const State start = observe(ring, time_step);
   State largest;  // deviations
-  io::CsvTable energies(folder / "energy.csv", {{"time", "s"}, {"energy, relative change", "-"}, {"shadow energy, relative change", "-"}, {"momentum", "kg m/s"}});
+  io::CsvTable energies(folder / "energy.csv",
+                        {{"time", "s"}, {"energy, relative change", "-"}, {"shadow energy, relative change", "-"}, {"momentum", "kg m/s"}});
   ring.every(steps_between_looks * time_step, [&](const auto& scene) {
     const auto u = displacements(scene);
     for (Wave& wave : waves) wave.follow(u);
@@ -135,30 +141,40 @@ int run(const example::Options& options) {
   ring.rescue_to((folder / "last_good.checkpoint").string()).progress();
 
   // Run
-  example::Result result{.example = "oscillator_chain", .test_case = "waves on a ring of springs", .resolution = std::to_string(beads) + " beads, 7 waves"};
+  example::Result result{
+      .example = "oscillator_chain", .test_case = "waves on a ring of springs", .resolution = std::to_string(beads) + " beads, 7 waves"};
   result.add(ring.run({.until = end, .time_step = time_step}));
   result.describe(ring);
 
   // Frequencies: the error of the leapfrog is (omega dt)^2/24 to leading order. A wave that starts with the velocity of the exact chain
   // carries (omega dt/4)^2 of a wave that runs backwards, by which its angle is uncertain.
-  io::CsvTable table(folder / "dispersion.csv", {{"wavelengths on the ring", "-"}, {"q a", "rad"}, {"frequency", "rad/s"}, {"exact chain", "rad/s"}, {"leapfrog", "rad/s"}});
+  io::CsvTable table(
+      folder / "dispersion.csv",
+      {{"wavelengths on the ring", "-"}, {"q a", "rad"}, {"frequency", "rad/s"}, {"exact chain", "rad/s"}, {"leapfrog", "rad/s"}});
   for (const Wave& wave : waves) {
     const double half = wave.half_step_angle(time_step), measured = wave.angle / end, leapfrog = 2.0 * std::asin(half) / time_step;
     table.row({static_cast<double>(wave.number), wave.wave_number * spacing, measured, wave.frequency, leapfrog});
     const std::string of = "frequency of wave " + std::to_string(wave.number) + ", relative to ";
-    result.error(of + "the chain's", measured / wave.frequency - 1.0, 1.01 * square(half) / 6.0, "omega = 2 sqrt(k/m) sin(q a/2); error (omega dt)^2/24");
-    result.error(of + "the leapfrog's", measured / leapfrog - 1.0, (1.05 * square(half) / 4.0 + 1e-9) / wave.angle, "sin(Omega dt/2) = omega dt/2");
+    result.error(of + "the chain's", measured / wave.frequency - 1.0, 1.01 * square(half) / 6.0,
+                 "omega = 2 sqrt(k/m) sin(q a/2); error (omega dt)^2/24");
+    result.error(of + "the leapfrog's", measured / leapfrog - 1.0, (1.05 * square(half) / 4.0 + 1e-9) / wave.angle,
+                 "sin(Omega dt/2) = omega dt/2");
   }
   const double half = fraction;  // omega dt/2 of the shortest wave a chain can carry
-  result.error("energy, largest relative change", largest.energy, square(square(half)) / (2.0 * (1.0 - square(half))), "the waver of the leapfrog, (omega dt/2)^4/2");
-  result.error("shadow energy, largest relative change", largest.shadow_energy, std::sqrt(steps) * rounding * beads * spacing / amplitude, "invariant; rounding of positions");
-  result.error("momentum, of that of one wave", largest.momentum / (beads * mass * amplitude * 2.0 * std::sqrt(stiffness / mass)), steps * rounding, "action = reaction; rounding of velocities");
+  result.error("energy, largest relative change", largest.energy, square(square(half)) / (2.0 * (1.0 - square(half))),
+               "the waver of the leapfrog, (omega dt/2)^4/2");
+  result.error("shadow energy, largest relative change", largest.shadow_energy, std::sqrt(steps) * rounding * beads * spacing / amplitude,
+               "invariant; rounding of positions");
+  result.error("momentum, of that of one wave", largest.momentum / (beads * mass * amplitude * 2.0 * std::sqrt(stiffness / mass)),
+               steps * rounding, "action = reaction; rounding of velocities");
 
   io::plot(folder, "oscillator_chain",
-           "set datafile separator ','\nset multiplot layout 1, 2\nset xlabel 'q a [rad]'\nset xrange [0:pi]\nset key top left\nset ylabel 'omega / sqrt(k/m)'\n"
-           "plot 2*sin(x/2) with lines lw 2 title '2 sin(q a/2)', 'dispersion.csv' using 2:($3/" + to_text(std::sqrt(stiffness / mass)) + ") skip 1 with points pt 7 ps 2 title 'dmp'\n"
+           "set datafile separator ','\nset multiplot layout 1, 2\nset xlabel 'q a [rad]'\nset xrange [0:pi]\nset key top left\n"
+           "set ylabel 'omega / sqrt(k/m)'\nplot 2*sin(x/2) with lines lw 2 title '2 sin(q a/2)', "
+           "'dispersion.csv' using 2:($3/" + to_text(std::sqrt(stiffness / mass)) + ") skip 1 with points pt 7 ps 2 title 'dmp'\n"
            "set ylabel 'frequency error, relative'\nset logscale y\nset format y '10^{%T}'\n"
-           "plot (" + to_text(2.0 * fraction) + "*sin(x/2))**2/24 with lines lw 2 title '(omega dt)^2/24', 'dispersion.csv' using 2:($3/$4 - 1) skip 1 with points pt 7 ps 2 title 'dmp'\nunset multiplot");
+           "plot (" + to_text(2.0 * fraction) + "*sin(x/2))**2/24 with lines lw 2 title '(omega dt)^2/24', "
+           "'dispersion.csv' using 2:($3/$4 - 1) skip 1 with points pt 7 ps 2 title 'dmp'\nunset multiplot");
   return result.print(folder);
 }
 
@@ -166,6 +182,8 @@ int run(const example::Options& options) {
 
 int main(int argc, char** argv) {
   return example::guarded("oscillator_chain", run,
-                          example::options(argc, argv, "oscillator_chain", "Waves on a ring of masses and springs: frequencies against the exact dispersion relation, energy over a million steps.",
+                          example::options(argc, argv, "oscillator_chain",
+                                           "Waves on a ring of masses and springs: frequencies against the exact dispersion relation, "
+                                           "energy over a million steps.",
                                            {.safety = true}));
 }

@@ -1,6 +1,6 @@
 // Shock tube of liquid water, 1000 or 10 000 bar against 1 bar: Noble-Abel stiffened gas, energy equation, local sound speed
-// (1 s; 1 s with --quick). Errors of pressure, velocity and density against the exact solution of the Riemann problem. Case NASG-1. Equation of
-// state: O. Le Metayer, R. Saurel, Phys. Fluids 28 (2016) 046102, doi:10.1063/1.4945981.
+// (1 s; 1 s with --quick). Errors of pressure, velocity and density against the exact solution of the Riemann problem. Case NASG-1.
+// Equation of state: O. Le Metayer, R. Saurel, Phys. Fluids 28 (2016) 046102, doi:10.1063/1.4945981.
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -114,8 +114,8 @@ Outcome solve(int resolution, const example::Options& options, const io::OutputF
   // Scene. The density starts with the pressure of the flow, or a sound wave would take its place.
   const geometry::Box<2> box{.lower = {0.0, 0.0}, .upper = {length, length}, .periodic = {true, true}};
   auto vortices = scene<example::Integrator<integrator::ExtrapolatedVerlet>, Precision>(
-      box, group<Fluid>("fluid_" + std::to_string(resolution) + precision, Mobile{}, points, density * points.volume), interaction<Fluid, Fluid>(flow),
-      material<Fluid>(eos, rheology));
+      box, group<Fluid>("fluid_" + std::to_string(resolution) + precision, Mobile{}, points, density * points.volume),
+      interaction<Fluid, Fluid>(flow), material<Fluid>(eos, rheology));
   auto& fluid = vortices.template group<Fluid>();
   fluid.template set<field::Density>([&](const Vector<2>& x) { return eos.density(exact_pressure(x)); });
   fluid.template set<field::Velocity>([](const Vector<2>& x) { return exact_velocity(x, 0.0); });
@@ -151,28 +151,33 @@ int run(const example::Options& options) {
     const std::string at = " at t = L/U, N = " + std::to_string(n);
     result.error("L1 of the velocity" + at, errors.l1, bound_of_l1(n), "exact; smoothing and disorder, see the source");
     result.error("L2 of the velocity" + at, errors.l2, bound_of_l2(n), "exact; smoothing and disorder, see the source");
-    result.error("highest speed, relative, worst, N = " + std::to_string(n), outcome.worst_speed, n < 100 ? 0.05 : 0.03, "exp(-8 pi^2 nu t/L^2)");
+    result.error("highest speed, relative, worst, N = " + std::to_string(n), outcome.worst_speed, n < 100 ? 0.05 : 0.03,
+                 "exp(-8 pi^2 nu t/L^2)");
     result.error("mean velocity" + at, errors.mean_velocity, 1e-12, "momentum is kept to rounding");
     if (n == resolutions.front() && options.resolution == 0) {
       // Pair laws in single precision: the error of rounding must stay small beside the error of the method.
       const Errors single = solve<precision::Single>(n, options, folder, result).last;
-      result.error("L2 in single precision against double, relative" + at, single.l2 / errors.l2 - 1.0, 1e-3, "double precision; seven digits");
+      result.error("L2 in single precision against double, relative" + at, single.l2 / errors.l2 - 1.0, 1e-3,
+                   "double precision; seven digits");
       result.error("mean velocity in single precision" + at, single.mean_velocity, 1e-5, "momentum is kept to rounding");
     }
     if (n > resolutions.front()) {
       // Half the spacing must gain half of what disorder alone would give: an observed order of at least 1/4.
       result.error("L2 over that of the next coarser N" + at, errors.l2 / coarser.l2, std::pow(2.0, -0.25), "order >= 1/4; 1/2 expected");
-      std::printf("N = %d: observed order of L1 %.2f, of L2 %.2f\n", n, std::log2(coarser.l1 / errors.l1), std::log2(coarser.l2 / errors.l2));
+      std::printf("N = %d: observed order of L1 %.2f, of L2 %.2f\n", n, std::log2(coarser.l1 / errors.l1),
+                  std::log2(coarser.l2 / errors.l2));
     }
     table.row({static_cast<double>(n), errors.l1, errors.l2, bound_of_l1(n), bound_of_l2(n)});
     result.resolution += (result.resolution.empty() ? "N = " : ", ") + std::to_string(n);
-    curves += separator + "'taylor_green_" + std::to_string(n) + ".csv' using 1:2 skip 1 with lines lw 2 title 'N = " + std::to_string(n) + "'";
+    curves +=
+        separator + "'taylor_green_" + std::to_string(n) + ".csv' using 1:2 skip 1 with lines lw 2 title 'N = " + std::to_string(n) + "'";
     separator = ", ";
     coarser = errors;
   }
   if (options.resolution > 0) return result.print(folder);
   io::plot(folder, "taylor_green",
-           "set datafile separator ','\nset multiplot layout 1,2\nset xlabel 't U/L'\nset ylabel 'highest speed / U'\nset logscale y\nset xrange [0:1]\nset yrange [0.4:1.05]\nplot " + curves +
+           "set datafile separator ','\nset multiplot layout 1,2\nset xlabel 't U/L'\nset ylabel 'highest speed / U'\nset logscale y\n"
+           "set xrange [0:1]\nset yrange [0.4:1.05]\nplot " + curves +
                ", 'taylor_green_25.csv' using 1:3 skip 1 with lines dt 2 lc 'black' title 'exact'\n"
                "set autoscale y\nset logscale x\nset xlabel 'N'\nset ylabel 'error of the velocity at t = L/U'\nset xrange [20:250]\n"
                "plot 'taylor_green.csv' using 1:2 skip 1 with linespoints title 'L1', '' using 1:3 skip 1 with linespoints title 'L2', "
@@ -183,6 +188,7 @@ int run(const example::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::guarded("taylor_green", run, example::options(argc, argv, "taylor_green", "Decay of periodic vortices at Re = 100 against the exact solution.",
+  return example::guarded("taylor_green", run,
+                          example::options(argc, argv, "taylor_green", "Decay of periodic vortices at Re = 100 against the exact solution.",
                                            {.least_resolution = 20, .largest_support = 8.0, .safety = true}));
 }

@@ -104,7 +104,8 @@ void heated_channel(double ratio, int rows, const example::Options& options, con
   const double hot = hot_for(ratio), mass = density * square(channel.spacing());
   const VariableProfile exact(hot);
   const double hottest = oil.viscosity(hot), coldest = oil.viscosity(cold);
-  const sph::WeaklyCompressible<example::Kernel<kernel::Lucy<2>>, viscosity::Morris<>> flow{.kernel = {.support_radius = channel.support_radius()}};
+  const sph::WeaklyCompressible<example::Kernel<kernel::Lucy<2>>, viscosity::Morris<>> flow{
+      .kernel = {.support_radius = channel.support_radius()}};
   const sph::HeatConduction<example::Kernel<kernel::Lucy<2>>> conduction{.kernel = {.support_radius = channel.support_radius()}};
   const eos::Tait liquid{.rest_density = density, .sound_speed_0 = 10.0 * top_speed};
   const auto pairs = [&]<class A, class B>(std::type_identity<A>, std::type_identity<B>) {
@@ -250,5 +251,6 @@ int main(int argc, char** argv) {
   return example::guarded(
       "variable_viscosity", run,
       example::options(argc, argv, "variable_viscosity",
-                       "Channel flow of fluids whose viscosity varies with temperature or shear rate (VISC-2 to VISC-5).", {.least_resolution = 5, .safety = true}));
+                       "Channel flow of fluids whose viscosity varies with temperature or shear rate (VISC-2 to VISC-5).",
+                       {.least_resolution = 5, .safety = true}));
 }

@@ -36,9 +36,12 @@ TEST_CASE("a Maxwell bond relaxes as k X e^(-k t/c), and pulled at a rate v it c
     }
 }
 
-TEST_CASE("a Maxwell bond in the limits: a spring for short steps and stiff dashpots, a dashpot for long steps, nothing without a dashpot") {
+TEST_CASE(
+    "a Maxwell bond in the limits: a spring for short steps and stiff dashpots, a dashpot for long steps, nothing without a dashpot") {
   const double k = 3.0, stretch = 0.2;
-  const auto force = [&](double damping, double dt) { return bond::Maxwell{.stiffness = k, .damping = damping}.memory_after(dt)(Bond{{1.0, 1.0}, stretch, 0.0}); };
+  const auto force = [&](double damping, double dt) {
+    return bond::Maxwell{.stiffness = k, .damping = damping}.memory_after(dt)(Bond{{1.0, 1.0}, stretch, 0.0});
+  };
   CHECK(force(1.0, 0.0) == k * stretch);
   CHECK(force(1e300, 1.0) == k * stretch);
   for (const double h : {1e-300, 1e-17, 1e-12, 1e-8, 1e-5}) {
@@ -75,6 +78,8 @@ TEST_CASE("whatever is done to a Maxwell bond, what it stores is at most the wor
 }
 
 TEST_CASE("a Maxwell bond refuses parameters that would feed energy") {
-  CHECK(test::complaint_about(bond::Maxwell{.stiffness = -1.0, .damping = 0.0}) == "bond::Maxwell: stiffness must be finite and >= 0 N/m, got -1");
-  CHECK(test::complaint_about(bond::Maxwell{.stiffness = 1.0, .damping = -0.5}) == "bond::Maxwell: damping must be finite and >= 0 N s/m, got -0.5");
+  CHECK(test::complaint_about(bond::Maxwell{.stiffness = -1.0, .damping = 0.0}) ==
+        "bond::Maxwell: stiffness must be finite and >= 0 N/m, got -1");
+  CHECK(test::complaint_about(bond::Maxwell{.stiffness = 1.0, .damping = -0.5}) ==
+        "bond::Maxwell: damping must be finite and >= 0 N s/m, got -0.5");
 }

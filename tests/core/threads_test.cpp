@@ -99,8 +99,9 @@ TEST_CASE("threads get about the same cost each: no more than one block off the 
   constexpr std::size_t count = 40, rows = 200;
   std::vector<std::size_t> bounds(count + 1);
   for (std::size_t block = 0; block <= count; ++block) bounds[block] = rows * block;
-  const std::vector<double (*)(std::size_t)> costs{[](std::size_t) { return 1.0; }, [](std::size_t block) { return static_cast<double>(block); },
-                                                   [](std::size_t block) { return block < 4 ? 10.0 : 1.0; }, [](std::size_t block) { return block % 7 == 0 ? 5.0 : 0.0; }};
+  const std::vector<double (*)(std::size_t)> costs{
+      [](std::size_t) { return 1.0; }, [](std::size_t block) { return static_cast<double>(block); },
+      [](std::size_t block) { return block < 4 ? 10.0 : 1.0; }, [](std::size_t block) { return block % 7 == 0 ? 5.0 : 0.0; }};
   for (const int threads : {1, 2, 3, 4})
     for (std::size_t k = 0; k < costs.size(); ++k) {
       CAPTURE(threads);
@@ -150,14 +151,23 @@ TEST_CASE("a thread that is held up keeps one block from being done, and no more
 
 TEST_CASE("what a block throws is thrown on") {
   const test::Threads use(2);
-  CHECK_THROWS_AS(dmp::for_each_block(Blocks(20000), [](std::size_t, std::size_t block) { if (block == 3) throw std::runtime_error("3"); }), std::runtime_error);
+  CHECK_THROWS_AS(dmp::for_each_block(Blocks(20000),
+                                      [](std::size_t, std::size_t block) {
+                                        if (block == 3) throw std::runtime_error("3");
+                                      }),
+                  std::runtime_error);
 }
 
 TEST_CASE("the largest over all ranges does not depend on the threads") {
   for (const int threads : {1, 2, 3, 4}) {
     const test::Threads use(threads);
     const auto largest = dmp::merge_ranges(
-        Ranges(10000), 0.0, [](std::size_t first, std::size_t last) { double part = 0.0; for (std::size_t row = first; row < last; ++row) part = std::max(part, static_cast<double>(row * 7919 % 10007)); return part; },
+        Ranges(10000), 0.0,
+        [](std::size_t first, std::size_t last) {
+          double part = 0.0;
+          for (std::size_t row = first; row < last; ++row) part = std::max(part, static_cast<double>(row * 7919 % 10007));
+          return part;
+        },
         [](double a, double b) { return std::max(a, b); });
     CHECK(largest == 10006.0);
   }

@@ -8,7 +8,8 @@
 namespace {
 
 /// Folders of include/dmp that hold no laws. A folder that is not named here is a family of laws.
-const std::set<std::string> no_laws{"app", "core", "coupling", "distributed", "geometry", "grid", "io", "lattice_spring", "measure", "neighbours", "particles", "simulation", "sweep"};
+const std::set<std::string> no_laws{"app", "core", "coupling", "distributed", "geometry", "grid", "io", "lattice_spring", "measure",
+                                    "neighbours", "particles", "simulation", "sweep"};
 
 /// The laws of the library, as links from docs/.
 std::set<std::string> law_links() {

@@ -14,7 +14,9 @@
 ///   test     // shown: text           a line of the page that this test cannot hold itself, such as an include of the page's own header
 namespace docs {
 
-[[nodiscard]] inline std::filesystem::path repository() { return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path(); }
+[[nodiscard]] inline std::filesystem::path repository() {
+  return std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+}
 
 [[nodiscard]] inline std::vector<std::string> lines_of(const std::filesystem::path& path) {
   std::ifstream file(path);

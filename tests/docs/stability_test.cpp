@@ -20,7 +20,8 @@ std::vector<std::vector<std::string>> rows_below(const std::string& head) {
     if (inside && !line.starts_with("|---")) {
       std::vector<std::string> cells;
       std::size_t at = 1;
-      for (std::size_t end = line.find('|', at); end != std::string::npos; at = end + 1, end = line.find('|', at)) cells.push_back(line.substr(at, end - at));
+      for (std::size_t end = line.find('|', at); end != std::string::npos; at = end + 1, end = line.find('|', at))
+        cells.push_back(line.substr(at, end - at));
       rows.push_back(cells);
     }
     if (line == head) inside = true;
@@ -31,7 +32,8 @@ std::vector<std::vector<std::string>> rows_below(const std::string& head) {
 }  // namespace
 
 TEST_CASE("stability.md: a bound from which the blow-up is farther than 1.5 times says why; none lies below its bound") {
-  const auto rows = rows_below("| law | scene | bound [s] | whose | blow-up [s] | blow-up / bound | stopped by an error at | why not sharp |");
+  const auto rows =
+      rows_below("| law | scene | bound [s] | whose | blow-up [s] | blow-up / bound | stopped by an error at | why not sharp |");
   CHECK(rows.size() > 30);
   for (const auto& row : rows) {
     REQUIRE(row.size() == 8);

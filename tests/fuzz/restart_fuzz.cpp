@@ -20,7 +20,8 @@ auto small_scene() {
   const Flow flow{.kernel = {.support_radius = 0.26}};
   const geometry::Box<2> box{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, false}};
   return scene<integrator::ExtrapolatedVerlet>(
-      box, group<Water>("water", particles::Mobile{}, water, 0.01), group<Beads>("beads", particles::Mobile{}, beads, 0.01), interaction<Water, Water>(flow), interaction<Water, Beads>(flow),
+      box, group<Water>("water", particles::Mobile{}, water, 0.01), group<Beads>("beads", particles::Mobile{}, beads, 0.01),
+      interaction<Water, Water>(flow), interaction<Water, Beads>(flow),
       bonds<Beads, Beads>(bond::Maxwell{.stiffness = 1.0, .damping = 0.1}, {{0, 1}, {1, 2}}),
       material<Water, Beads>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
 }

@@ -4,9 +4,11 @@
 
 using dmp::integrator::ExtrapolatedVerlet;
 
-TEST_CASE("extrapolated-velocity Verlet obeys the laws of integrators: second order also in damping, stable to omega dt = 2 and lambda dt = 1") {
+TEST_CASE(
+    "extrapolated-velocity Verlet obeys the laws of integrators: second order also in damping, stable to omega dt = 2 and lambda dt = 1") {
   static_assert(ExtrapolatedVerlet::oscillation_limit == 2.0 && ExtrapolatedVerlet::damping_limit == 1.0);
-  check_integrator_laws<ExtrapolatedVerlet>({.order = 2, .damped_order = 2, .state_order = 2, .position_exact = true, .reversible = true, .sound_limit = 0.76});
+  check_integrator_laws<ExtrapolatedVerlet>(
+      {.order = 2, .damped_order = 2, .state_order = 2, .position_exact = true, .reversible = true, .sound_limit = 0.76});
 }
 
 TEST_CASE("laws see the velocity at the end of the step: exactly, if the acceleration is constant") {
@@ -29,6 +31,7 @@ TEST_CASE("extrapolated-velocity Verlet damps sound by about (omega dt)^4/8 per 
   for (const double step : {0.15, 0.2, 0.3}) {
     CAPTURE(step);
     const int steps = static_cast<int>(8.0 / std::pow(step, 4));
-    CHECK(std::log(test::loudness<ExtrapolatedVerlet>(step, 2 * steps) / test::loudness<ExtrapolatedVerlet>(step, steps)) == doctest::Approx(-1.0).epsilon(0.2));
+    CHECK(std::log(test::loudness<ExtrapolatedVerlet>(step, 2 * steps) / test::loudness<ExtrapolatedVerlet>(step, steps)) ==
+          doctest::Approx(-1.0).epsilon(0.2));
   }
 }

@@ -155,12 +155,14 @@ void check_integrator_laws(const Claims& claims) {
   const double c = std::cos(3.0), s = std::sin(3.0), decay = std::exp(-1.5);
   CHECK(test::observed_order(error(spring, 1.0, 0.5, c + 0.5 * s, 0.5 * c - s), 400) == doctest::Approx(claims.order).epsilon(0.02));
   const auto damped = [](double x, double v, double) { return -1.25 * x - v; };  // exp(-t/2) (cos t + sin t)
-  CHECK(test::observed_order(error(damped, 1.0, 0.5, decay * (c + s), decay * (0.5 * c - 1.5 * s)), 400) == doctest::Approx(claims.damped_order).epsilon(0.05));
+  CHECK(test::observed_order(error(damped, 1.0, 0.5, decay * (c + s), decay * (0.5 * c - 1.5 * s)), 400) ==
+        doctest::Approx(claims.damped_order).epsilon(0.05));
   const auto driven = [](double, double, double t) { return std::cos(t); };  // 1 - cos t
   CHECK(test::observed_order(error(driven, 0.0, 0.0, 1.0 - c, s), 400) == doctest::Approx(claims.order).epsilon(0.02));
 
   // Constant acceleration: v exact, x = v0 t + a t^2/2 if claimed, else behind or ahead by half a step, a t dt/2.
-  const double fall = test::particle<I>(2.0, 3.0, [](double, double, double) { return -4.0; }).run(64, 0.125).x();  // to t = 8, without rounding
+  const double fall =
+      test::particle<I>(2.0, 3.0, [](double, double, double) { return -4.0; }).run(64, 0.125).x();  // to t = 8, without rounding
   const double speed = test::particle<I>(2.0, 3.0, [](double, double, double) { return -4.0; }).run(64, 0.125).v();
   CHECK(speed == 3.0 - 4.0 * 8.0);
   if (claims.position_exact)

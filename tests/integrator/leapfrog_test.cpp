@@ -5,7 +5,8 @@ using dmp::integrator::Leapfrog;
 
 TEST_CASE("leapfrog obeys the laws of integrators: second order, first in damping, reversible, stable to omega dt = 2 and lambda dt = 2") {
   static_assert(Leapfrog::oscillation_limit == 2.0 && Leapfrog::damping_limit == 2.0);
-  check_integrator_laws<Leapfrog>({.order = 2, .damped_order = 1, .state_order = 1, .position_exact = true, .reversible = true, .sound_limit = 0.71});
+  check_integrator_laws<Leapfrog>(
+      {.order = 2, .damped_order = 1, .state_order = 1, .position_exact = true, .reversible = true, .sound_limit = 0.71});
 }
 
 TEST_CASE("leapfrog swings an oscillator at the frequency 2 asin(omega dt/2)/dt, for ever") {

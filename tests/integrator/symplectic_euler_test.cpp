@@ -5,7 +5,8 @@ using dmp::integrator::SymplecticEuler;
 
 TEST_CASE("symplectic Euler obeys the laws of integrators: first order, not reversible, stable to omega dt = 2 and lambda dt = 2") {
   static_assert(SymplecticEuler::oscillation_limit == 2.0 && SymplecticEuler::damping_limit == 2.0);
-  check_integrator_laws<SymplecticEuler>({.order = 1, .damped_order = 1, .state_order = 1, .position_exact = false, .reversible = false, .sound_limit = 0.71});
+  check_integrator_laws<SymplecticEuler>(
+      {.order = 1, .damped_order = 1, .state_order = 1, .position_exact = false, .reversible = false, .sound_limit = 0.71});
 }
 
 TEST_CASE("symplectic Euler keeps v^2 + x^2 - dt x v of an oscillator, not its energy") {

@@ -22,7 +22,8 @@ bool printed_as(double value, double printed) { return std::fabs(value - printed
 template <int Dim>
 double largest_difference(const ElasticConstants<Dim>& a, const ElasticConstants<Dim>& b) {
   double largest = 0.0;
-  for (const auto& [x, y] : {std::pair{a.youngs_modulus, b.youngs_modulus}, {a.shear_modulus, b.shear_modulus}, {a.bulk_modulus, b.bulk_modulus},
+  for (const auto& [x, y] : {std::pair{a.youngs_modulus, b.youngs_modulus}, {a.shear_modulus, b.shear_modulus},
+                             {a.bulk_modulus, b.bulk_modulus},
                              {a.spring_modulus, b.spring_modulus}})
     largest = std::max(largest, relative_error(x, y));
   for (const auto& [x, y] : {std::pair{a.poisson_ratio, b.poisson_ratio}, {a.dispersive_share, b.dispersive_share}})
@@ -45,7 +46,9 @@ double energy(const Body<Dim>& body, const Tensor<Dim>& gradient) {
 /// d^2 U/dh^2 /V at rest along a gradient: central differences, extrapolated twice.
 template <int Dim>
 double modulus(const Body<Dim>& body, const Tensor<Dim>& gradient) {
-  const auto difference = [&](double h) { return (energy<Dim>(body, h * gradient) + energy<Dim>(body, -h * gradient)) / (h * h * body.volume); };
+  const auto difference = [&](double h) {
+    return (energy<Dim>(body, h * gradient) + energy<Dim>(body, -h * gradient)) / (h * h * body.volume);
+  };
   const double h = 4e-3, a = difference(h), b = difference(0.5 * h), c = difference(0.25 * h);
   const double ab = (4.0 * b - a) / 3.0, bc = (4.0 * c - b) / 3.0;
   return (16.0 * bc - ab) / 15.0;
@@ -88,11 +91,12 @@ TEST_CASE("B1: the table of sheet 04, from E and nu, from lambda and mu, and fro
   struct Row {
     double nu, mu, lambda, K, Q, C, D;
   };
-  for (const auto& row : {Row{-0.99, 50, -33.221477, 0.111857, -0.998658, 99.932886, -0.499664}, Row{-0.50, 1, -0.5, 0.166667, -0.9, 1.9, -0.473684},
-                          Row{0, 0.5, 0, 0.333333, -0.6, 0.8, -0.375}, Row{0.10, 0.454545, 0.113636, 0.416667, -0.45, 0.659091, -0.310345},
-                          Row{0.25, 0.4, 0.4, 0.666667, 0, 0.4, 0}, Row{0.30, 0.384615, 0.576923, 0.833333, 0.3, 0.5, 0.230769},
-                          Row{0.40, 0.357143, 1.428571, 1.666667, 1.8, 1, 0.642857}, Row{0.45, 0.344828, 3.103448, 3.333333, 4.8, 2, 0.827586},
-                          Row{0.49, 0.335570, 16.442953, 16.666667, 28.8, 10, 0.966443}}) {
+  for (const auto& row :
+       {Row{-0.99, 50, -33.221477, 0.111857, -0.998658, 99.932886, -0.499664}, Row{-0.50, 1, -0.5, 0.166667, -0.9, 1.9, -0.473684},
+        Row{0, 0.5, 0, 0.333333, -0.6, 0.8, -0.375}, Row{0.10, 0.454545, 0.113636, 0.416667, -0.45, 0.659091, -0.310345},
+        Row{0.25, 0.4, 0.4, 0.666667, 0, 0.4, 0}, Row{0.30, 0.384615, 0.576923, 0.833333, 0.3, 0.5, 0.230769},
+        Row{0.40, 0.357143, 1.428571, 1.666667, 1.8, 1, 0.642857}, Row{0.45, 0.344828, 3.103448, 3.333333, 4.8, 2, 0.827586},
+        Row{0.49, 0.335570, 16.442953, 16.666667, 28.8, 10, 0.966443}}) {
     CAPTURE(row.nu);
     const auto check = [&](const ElasticConstants<3>& c) {
       CHECK(printed_as(c.youngs_modulus, 1.0));

@@ -15,14 +15,15 @@ using test::complaint;
 
 namespace {
 
-const double l = 12.5e-6;                                                                             // [m], edge of the lattice of the sheet's sphere
+const double l = 12.5e-6;                                                             // [m], edge of the lattice of the sheet's sphere
 const Hertz sphere{.radius = 32 * l, .youngs_modulus = 40e6, .poisson_ratio = 0.25};  // sheet 01
 
 }  // namespace
 
 TEST_CASE("A4: force and contact radius of the sphere of sheet 01 at 1, 2, 5 and 10 per cent") {
   CHECK(sphere.prefactor() == doctest::Approx(4.0227e5).epsilon(2e-5));
-  const std::array<std::array<double, 3>, 4> table{{{0.01, 9.10e-3, 3.2}, {0.02, 25.7e-3, 4.5}, {0.05, 101.8e-3, 7.2}, {0.10, 287.8e-3, 10.1}}};
+  const std::array<std::array<double, 3>, 4> table{
+      {{0.01, 9.10e-3, 3.2}, {0.02, 25.7e-3, 4.5}, {0.05, 101.8e-3, 7.2}, {0.10, 287.8e-3, 10.1}}};
   for (const auto& [fraction, force, radius] : table) {
     const double approach = fraction * 2.0 * sphere.radius;
     CHECK(sphere.force(approach) == doctest::Approx(force).epsilon(2e-3).scale(0.0));
@@ -38,11 +39,14 @@ TEST_CASE("Hertz: the formulas agree with each other and with the theory of one 
   const double modulus = sphere.youngs_modulus / (1.0 - 0.25 * 0.25);  // of the contact with a rigid flat
   for (const double approach : {1e-9, 1e-6, 4e-5}) {
     const double a = sphere.contact_radius(approach), p0 = sphere.peak_pressure(approach), F = sphere.force(approach);
-    CHECK(F == doctest::Approx(4.0 / 3.0 * modulus * std::sqrt(double(sphere.radius)) * std::pow(0.5 * approach, 1.5)).epsilon(1e-13));  // half on each side
+    CHECK(F == doctest::Approx(4.0 / 3.0 * modulus * std::sqrt(double(sphere.radius)) * std::pow(0.5 * approach, 1.5))
+                   .epsilon(1e-13));  // half on each side
     CHECK(F == doctest::Approx(4.0 / 3.0 * modulus * a * a * a / sphere.radius).epsilon(1e-13));
     CHECK(p0 == doctest::Approx(2.0 * modulus * a / (std::numbers::pi * sphere.radius)).epsilon(1e-13));
     // The pressure p0 sqrt(1 - (r/a)^2) adds up to the force; r/a = sin t.
-    const double sum = test::integral([&](double t) { return 2.0 * std::numbers::pi * a * a * p0 * std::sin(t) * std::cos(t) * std::cos(t); }, 0.0, 0.5 * std::numbers::pi);
+    const double sum =
+        test::integral([&](double t) { return 2.0 * std::numbers::pi * a * a * p0 * std::sin(t) * std::cos(t) * std::cos(t); }, 0.0,
+                       0.5 * std::numbers::pi);
     CHECK(sum == doctest::Approx(F).epsilon(1e-12));
     CHECK(sphere.stiffness(approach) == doctest::Approx(modulus * a).epsilon(1e-13));  // two springs 2 E' a in series
     CHECK(sphere.approach(F) == doctest::Approx(approach).epsilon(1e-13));
@@ -51,7 +55,8 @@ TEST_CASE("Hertz: the formulas agree with each other and with the theory of one 
           doctest::Approx(F + 1.5 * sphere.prefactor() * tau * std::sqrt(approach) * rate).epsilon(1e-13));
   }
   for (const double apart : {0.0, -1e-6})
-    CHECK((sphere.force(apart) == 0.0 && sphere.stiffness(apart) == 0.0 && sphere.contact_radius(apart) == 0.0 && sphere.peak_pressure(apart) == 0.0));
+    CHECK((sphere.force(apart) == 0.0 && sphere.stiffness(apart) == 0.0 && sphere.contact_radius(apart) == 0.0 &&
+           sphere.peak_pressure(apart) == 0.0));
 }
 
 TEST_CASE("A5: on the axis the shear stress is largest at 0.464 a with 0.3217 p0 for nu = 0.25, at 0.481 a with 0.310 p0 for nu = 0.30") {
@@ -66,7 +71,8 @@ TEST_CASE("A5: on the axis the shear stress is largest at 0.464 a with 0.3217 p0
 TEST_CASE("stress on the axis of a Hertz contact is that of the half space under its pressure: Boussinesq's, added up over rings") {
   for (const double nu : {0.0, 0.25, 0.4})
     for (const double z : {0.2, 0.464, 1.0, 3.0}) {
-      // A ring of radius r under pressure p: sigma_z = -3 p z^3/R^5 r dr, sigma_r = p/2 [(1 - 2 nu)/... ] as below; R^2 = r^2 + z^2, r = sin t.
+      // A ring of radius r under pressure p: sigma_z = -3 p z^3/R^5 r dr, sigma_r = p/2 [(1 - 2 nu)/... ] as below;
+      // R^2 = r^2 + z^2, r = sin t.
       const auto ring = [&](double t, bool axial) {
         const double r = std::sin(t), R = std::sqrt(r * r + z * z), dP = 2.0 * std::numbers::pi * r * std::cos(t) * std::cos(t);
         if (axial) return -dP * 3.0 * z * z * z / (2.0 * std::numbers::pi * std::pow(R, 5));
@@ -76,8 +82,10 @@ TEST_CASE("stress on the axis of a Hertz contact is that of the half space under
         return dP / (2.0 * std::numbers::pi) * 0.5 * (radial + hoop);
       };
       const auto stress = hertz_axis_stress(z, nu);
-      CHECK(stress.axial == doctest::Approx(test::integral([&](double t) { return ring(t, true); }, 0.0, 0.5 * std::numbers::pi)).epsilon(1e-10));
-      CHECK(stress.radial == doctest::Approx(test::integral([&](double t) { return ring(t, false); }, 0.0, 0.5 * std::numbers::pi)).epsilon(1e-10));
+      CHECK(stress.axial ==
+            doctest::Approx(test::integral([&](double t) { return ring(t, true); }, 0.0, 0.5 * std::numbers::pi)).epsilon(1e-10));
+      CHECK(stress.radial ==
+            doctest::Approx(test::integral([&](double t) { return ring(t, false); }, 0.0, 0.5 * std::numbers::pi)).epsilon(1e-10));
     }
   CHECK(hertz_axis_stress(0.0, 0.25).radial == doctest::Approx(-0.75));  // -(1 + 2 nu)/2 in the middle of the contact
 }
@@ -105,7 +113,8 @@ TEST_CASE("fit: a Hertz curve with a shifted zero gives back E, A and the zero; 
 TEST_CASE("A4: fits to the force curves that sheet 01 tabulates come near the moduli that it fits to twice as many points") {
   const std::array<double, 4> approach{64 * 0.025, 64 * 0.05, 64 * 0.075, 64 * 0.10};  // lattice units, R = 32
   const auto fitted = [&](const std::array<double, 4>& force) { return fit_hertz(approach, force, 32.0, 0.25); };
-  const auto q1 = fitted({9.474, 32.83, 65.23, 105.39}), q2 = fitted({9.972, 33.48, 65.79, 105.50}), q3 = fitted({10.070, 33.61, 67.08, 108.69});
+  const auto q1 = fitted({9.474, 32.83, 65.23, 105.39}), q2 = fitted({9.972, 33.48, 65.79, 105.50}),
+             q3 = fitted({10.070, 33.61, 67.08, 108.69});
   const auto facet = fitted({35.42, 66.89, 112.4, 159.0});
   CHECK(std::fabs(q1.youngs_modulus / 2.5 - 0.982) < 0.05);
   CHECK(std::fabs(q2.youngs_modulus / 2.5 - 0.979) < 0.05);
@@ -116,7 +125,8 @@ TEST_CASE("A4: fits to the force curves that sheet 01 tabulates come near the mo
 }
 
 TEST_CASE("A8c: the relaxation integral I(x) has the sheet's six values, and is its integral for any x") {
-  const std::array<std::array<double, 2>, 6> table{{{0.1, 0.9611}, {0.5, 0.8257}, {1.0, 0.6929}, {2.0, 0.5100}, {5.0, 0.2653}, {10.0, 0.1420}}};
+  const std::array<std::array<double, 2>, 6> table{
+      {{0.1, 0.9611}, {0.5, 0.8257}, {1.0, 0.6929}, {2.0, 0.5100}, {5.0, 0.2653}, {10.0, 0.1420}}};
   for (const auto& [x, value] : table) CHECK(std::fabs(ramp_relaxation(x) - value) <= 0.5001e-4);
   CHECK(ramp_relaxation(0.0) == 1.0);
   for (const double x : {1e-12, 1e-3, 0.3, 3.0, 20.0, 49.9, 50.1, 80.0, 300.0}) {  // u = s^2

@@ -74,8 +74,9 @@ void check_sphere(const Count& count) {
 static_assert(SpringLattice<CubicLattice> && SpringLattice<TriangularLattice> && SpringLattice<SquareLattice>);
 
 TEST_CASE("A4, sheet 01 section 3: spheres of cubic lattice have the beads, edge bonds and diagonal bonds of the table") {
-  for (const auto& count : {Count{8, 2103, 5730, 10956, 15.87}, Count{10, 4139, 11502, 22176, 16.27}, Count{16, 17071, 48834, 95688, 16.93},
-                            Count{20, 33371, 96378, 189648, 17.14}, Count{24, 57747, 167874, 331236, 17.29}, Count{32, 137059, 401562, 795108, 17.46}})
+  for (const auto& count :
+       {Count{8, 2103, 5730, 10956, 15.87}, Count{10, 4139, 11502, 22176, 16.27}, Count{16, 17071, 48834, 95688, 16.93},
+        Count{20, 33371, 96378, 189648, 17.14}, Count{24, 57747, 167874, 331236, 17.29}, Count{32, 137059, 401562, 795108, 17.46}})
     check_sphere(count);
 }
 
@@ -197,7 +198,8 @@ TEST_CASE("A10: bonds of a sphere are divided between core and shell; those acro
   CHECK(harmonic_mean(200.0, 20.0) == doctest::Approx(2.0 / (1.0 / 200.0 + 1.0 / 20.0)).epsilon(1e-15));
   CHECK(harmonic_mean(0.0, 0.0) == 0.0);
   CHECK(harmonic_mean(0.0, 5.0) == 0.0);
-  CHECK(complaint([] { return harmonic_mean(1.0, -2.0); }) == "lattice_spring::harmonic_mean: stiffness must be finite and >= 0 N/m, got -2");
+  CHECK(complaint([] { return harmonic_mean(1.0, -2.0); }) ==
+        "lattice_spring::harmonic_mean: stiffness must be finite and >= 0 N/m, got -2");
   CHECK(complaint([&] { return split(body, 1, [](const auto&, const auto&) { return 1u; }); }) ==
         "lattice_spring::split: the rule must name one of 1 lists, from 0, got 1");
 }
@@ -219,8 +221,9 @@ TEST_CASE("lattice bodies: what cannot be built is told by name and value") {
         "lattice_spring: the bounding cuboid must hold at most 2^31 lattice nodes, got 1001500750125");
   CHECK(complaint([] { return lattice_body(CubicLattice{.spacing = 1.0}, {.lower = {0.1, 0.1, 0.1}, .upper = {0.9, 0.9, 0.9}}); }) ==
         "lattice_spring: no node of the lattice lies inside the shape, got a spacing of 1 m");
-  CHECK(complaint([&] { return lattice_body(CubicLattice{.spacing = 0.9}, {.lower = {0, 0, 0}, .upper = {2, 2, 0.8}}, SurfaceBonds::shared); }) ==
-        "lattice_spring: no whole cell of the lattice lies inside the shape, got a spacing of 0.9 m");
+  CHECK(complaint([&] {
+          return lattice_body(CubicLattice{.spacing = 0.9}, {.lower = {0, 0, 0}, .upper = {2, 2, 0.8}}, SurfaceBonds::shared);
+        }) == "lattice_spring: no whole cell of the lattice lies inside the shape, got a spacing of 0.9 m");
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(complaint([&] { return lattice_body(CubicLattice{.spacing = 0.9}, {.lower = {0, 0, 0}, .upper = {2, 2, infinity}}); }) ==
         "lattice_spring::lattice_body: upper bound of the cuboid must be finite [m], got inf");

@@ -162,8 +162,9 @@ TEST_CASE("networks: what cannot be built is told by name and value") {
         "lattice_spring::RandomAddition: most_failures must be >= 1, got 0");
   CHECK(complaint([] { return random_points<3>({.least_distance = 1e-5}, cube(1.0)); }).starts_with(
         "lattice_spring::random_points: the bounding cuboid must hold at most 2^30 cells of least_distance/sqrt(Dim), got "));
-  CHECK(complaint([] { return random_points<1>({.least_distance = 0.1}, {.lower = {0.0}, .upper = {1.0}}, Ball<1>{.centre = {5.0}, .radius = 1.0}); }) ==
-        "lattice_spring::random_points: the shape must fill some of the bounding cuboid, got none in 1e7 trials");
+  CHECK(complaint([] {
+          return random_points<1>({.least_distance = 0.1}, {.lower = {0.0}, .upper = {1.0}}, Ball<1>{.centre = {5.0}, .radius = 1.0});
+        }) == "lattice_spring::random_points: the shape must fill some of the bounding cuboid, got none in 1e7 trials");
   const Points<2> three{.positions = {{0, 0}, {1, 0}, {0, 1}}, .spacing = 1.0};
   CHECK(complaint([&] { return network(three, 0.9); }) ==
         "lattice_spring::network: reach must be > the distance of nearest points, 1 m, or there are no bonds, got 0.9");

@@ -46,7 +46,8 @@ TEST_CASE("sheet 01 section 6: inside the cubic lattice H = 6 k 1, so omega^2 <=
   CHECK(stable_time_step(block, mass, 200.0, 1e-6) == doctest::Approx(5.2e-8).epsilon(0.01).scale(0.0));
 }
 
-TEST_CASE("section 6: the bound holds for lattices and networks, by the eigenvalues of the whole stiffness matrix, and is near in lattices") {
+TEST_CASE(
+    "section 6: the bound holds for lattices and networks, by the eigenvalues of the whole stiffness matrix, and is near in lattices") {
   const auto block = lattice_block(CubicLattice{.spacing = 1.0}, {5, 5, 5}, SurfaceBonds::shared);
   const auto points = random_points<3>({.least_distance = 0.46, .most_points = 200}, {.lower = {0, 0, 0}, .upper = {3, 3, 3}});
   for (const auto& body : {block, lattice_block(CubicLattice{.spacing = 1.0}, {5, 5, 5}), network(points, 0.885),
@@ -122,7 +123,8 @@ TEST_CASE("scenes refuse bodies with a bond of length zero, of a bead with itsel
     return complaint([&] { return solid(body, 1.0, law); });
   };
   CHECK(with({{0, 1}}).empty());
-  CHECK(with({{1, 2}}) == "bonds of beads: length must be > 0 m (the two ends coincide; give a rest_length if that is meant), got bond (1, 2)");
+  CHECK(with({{1, 2}}) ==
+        "bonds of beads: length must be > 0 m (the two ends coincide; give a rest_length if that is meant), got bond (1, 2)");
   CHECK(with({{1, 1}}) == "bonds of beads: a particle cannot be bonded to itself, got bond (1, 1)");
   CHECK(with({{0, 1}, {1, 0}}) == "bonds of beads: the same two particles must not be bonded twice, got bond (0, 1)");
   CHECK(with({{0, 3}}) == "bonds of beads: both ends must exist (3 and 3 particles), got bond (0, 3)");
@@ -130,7 +132,8 @@ TEST_CASE("scenes refuse bodies with a bond of length zero, of a bead with itsel
 
 TEST_CASE("stability: what cannot be bounded is told by name and value") {
   const auto block = lattice_block(CubicLattice{.spacing = 1.0}, {1, 1, 1});
-  CHECK(complaint([&] { return stable_time_step(block, 0.0, 1.0); }) == "lattice_spring::highest_rate: mass must be finite and > 0 kg, got 0");
+  CHECK(complaint([&] { return stable_time_step(block, 0.0, 1.0); }) ==
+        "lattice_spring::highest_rate: mass must be finite and > 0 kg, got 0");
   CHECK(complaint([&] { return stable_time_step(block, 1.0, -1.0); }) ==
         "lattice_spring::stable_time_step: stiffness must be finite and >= 0 N/m, got -1");
   CHECK(complaint([&] { return stable_time_step(block, 1.0, 1.0, -1.0); }) ==

@@ -38,7 +38,8 @@ struct Strained {
   }
 };
 
-const Tensor<3> small = (Tensor<3>{} << 3e-7, 1e-7, -2e-7, 0.5e-7, -1e-7, 1.5e-7, 1e-7, 0.5e-7, 2e-7).finished();  // a displacement gradient
+const Tensor<3> small =
+    (Tensor<3>{} << 3e-7, 1e-7, -2e-7, 0.5e-7, -1e-7, 1.5e-7, 1e-7, 0.5e-7, 2e-7).finished();  // a displacement gradient
 
 /// C : e for lambda = mu.
 Tensor<3> isotropic(double mu, const Tensor<3>& gradient) {
@@ -48,9 +49,11 @@ Tensor<3> isotropic(double mu, const Tensor<3>& gradient) {
 
 }  // namespace
 
-TEST_CASE("the virial stress of a uniformly strained cubic lattice is C : e in every bead inside, whatever its orientation, tension positive") {
+TEST_CASE(
+    "the virial stress of a uniformly strained cubic lattice is C : e in every bead inside, whatever its orientation, tension positive") {
   const double l = 0.2, k = 5.0;
-  for (const Tensor<3>& turn : {Tensor<3>(Tensor<3>::Identity()), Eigen::Quaterniond(0.8, 0.3, -0.4, 0.1).normalized().toRotationMatrix()}) {
+  for (const Tensor<3>& turn :
+       {Tensor<3>(Tensor<3>::Identity()), Eigen::Quaterniond(0.8, 0.3, -0.4, 0.1).normalized().toRotationMatrix()}) {
     const Strained s(lattice_block(CubicLattice{.spacing = l, .orientation = turn}, {5, 5, 5}, SurfaceBonds::shared), small, k);
     const auto stress = virial_stress<3>(s.body.bonds, s.tension, s.x, l * l * l);
     const Tensor<3> expected = isotropic(k / l, small);
@@ -91,7 +94,8 @@ TEST_CASE("2D: the virial stress of triangular and square lattices under tension
   check(SquareLattice{.spacing = 0.3}, 8);
 }
 
-TEST_CASE("principal stresses are ordered, invariant under rotation, and half the difference of the outer two is the largest shear stress") {
+TEST_CASE(
+    "principal stresses are ordered, invariant under rotation, and half the difference of the outer two is the largest shear stress") {
   const Vector<3> s(7.0, 2.0, -4.0);
   const Tensor<3> turn = Eigen::Quaterniond(0.5, -0.1, 0.7, 0.2).normalized().toRotationMatrix();
   const Tensor<3> stress = turn * s.asDiagonal() * turn.transpose();
@@ -145,9 +149,9 @@ TEST_CASE("the virial stress of a scene's beads after some steps is that of its 
   measure_rest_lengths<3>(body.bonds, body.points.positions);
   for (auto& bond : body.bonds) bond.rest_length *= 1.01;  // compressed by 1 %
   const dmp::bond::Harmonic law{.stiffness = 1.0};
-  auto scene = dmp::simulation::scene<dmp::integrator::Leapfrog>(Box<3>::unbounded(),
-                                                                 dmp::simulation::group<Beads>("beads", dmp::particles::Mobile{}, body.points, 1.0),
-                                                                 dmp::simulation::bonds<Beads, Beads>(law, body.bonds));
+  auto scene = dmp::simulation::scene<dmp::integrator::Leapfrog>(
+      Box<3>::unbounded(), dmp::simulation::group<Beads>("beads", dmp::particles::Mobile{}, body.points, 1.0),
+      dmp::simulation::bonds<Beads, Beads>(law, body.bonds));
   const auto pressure = [&] {
     const auto x = scene.group<Beads>().positions();
     const auto stress = virial_stress<3>(body.bonds, tensions<3>(law, body.bonds, x), x, 1.0);
@@ -163,7 +167,8 @@ TEST_CASE("the virial stress of a scene's beads after some steps is that of its 
 
 TEST_CASE("Hardy: the overlap of two balls is the integral of their common discs, and has its limits") {
   const double pi = std::numbers::pi;
-  for (const auto& balls : {std::array{1.0, 0.5, 0.8}, {0.5, 1.0, 0.8}, {1.0, 1.0, 1.5}, {1.0, 0.34, 1.3}, {1.02, 0.3, 0.75}, {1.0, 1.0, 0.2}}) {
+  for (const auto& balls :
+       {std::array{1.0, 0.5, 0.8}, {0.5, 1.0, 0.8}, {1.0, 1.0, 1.5}, {1.0, 0.34, 1.3}, {1.02, 0.3, 0.75}, {1.0, 1.0, 0.2}}) {
     const double R = balls[0], r = balls[1], d = balls[2];
     const double joint = (d * d + R * R - r * r) / (2.0 * d);  // the plane of the common circle, from the centre of the first
     const double expected = test::integral([&](double x) { return pi * (r * r - (x - d) * (x - d)); }, d - r, joint) +
@@ -224,6 +229,7 @@ TEST_CASE("Hardy: what cannot be probed is told") {
   const std::vector<Bond> bonds{{0, 1}};
   CHECK(complaint([&] { return HardyStress(bonds, std::vector{1.0}, x); }) ==
         "lattice_spring::HardyStress: bonds must number 1 or more with a length > 0 m, got none");
-  CHECK(complaint([&] { return HardyStress(bonds, std::vector<double>{}, x); }) == "lattice_spring::HardyStress: tensions must number 1, got 0");
+  CHECK(complaint([&] { return HardyStress(bonds, std::vector<double>{}, x); }) ==
+        "lattice_spring::HardyStress: tensions must number 1, got 0");
   CHECK(complaint([] { return ball_overlap(-1.0, 1.0, 1.0); }) == "lattice_spring::ball_overlap: radius must be finite and >= 0 m, got -1");
 }

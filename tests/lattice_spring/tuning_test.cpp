@@ -114,7 +114,8 @@ TEST_CASE("B6 on a cube of 5 a0: kL-tune keeps points, limits and the interior's
   CHECK(moved(strained) < 0.05 * moved(untuned));
 }
 
-TEST_CASE("B12, counted: solves and alternations do not grow with the network, iterations of a solve more slowly than the beads across it") {
+TEST_CASE(
+    "B12, counted: solves and alternations do not grow with the network, iterations of a solve more slowly than the beads across it") {
   struct Work {
     double across;  // a0, of the inner beads
     TuningReport balance;

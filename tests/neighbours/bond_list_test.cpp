@@ -55,7 +55,8 @@ TEST_CASE("the shortest way leads through a periodic face where that is nearer, 
     for (std::uint32_t a = 0; a < points.size(); ++a) {
       const std::uint32_t b = (7 * a + 3) % 60;
       double shortest = std::numeric_limits<double>::infinity();
-      test::for_each_image<3>(a, box, [&](const auto& image) { shortest = std::min(shortest, (test::position_of<3>(image, points, box) - points[b]).norm()); });
+      test::for_each_image<3>(
+          a, box, [&](const auto& image) { shortest = std::min(shortest, (test::position_of<3>(image, points, box) - points[b]).norm()); });
       const Vector<3> way = dmp::neighbours::minimum_image<3>(points[a] - points[b], box);
       CHECK(way.norm() == doctest::Approx(shortest).epsilon(1e-14));
       const Vector<3> boxes = (way - (points[a] - points[b])) / 2.0;
@@ -82,7 +83,8 @@ TEST_CASE("a bond is refused with its ends and the reason: itself, nobody there,
   CHECK(complaint({{0, 1}, {2, 2}}) == "bonds of net: a particle cannot be bonded to itself, got bond (2, 2)");
   CHECK(complaint({{0, 4}}) == "bonds of net: both ends must exist (4 and 4 particles), got bond (0, 4)");
   CHECK(complaint({{4, 0}}) == "bonds of net: both ends must exist (4 and 4 particles), got bond (4, 0)");
-  CHECK(complaint({{2, 3}}) == "bonds of net: length must be > 0 m (the two ends coincide; give a rest_length if that is meant), got bond (2, 3)");
+  CHECK(complaint({{2, 3}}) ==
+        "bonds of net: length must be > 0 m (the two ends coincide; give a rest_length if that is meant), got bond (2, 3)");
   CHECK(complaint({{0, 1}, {1, 2}, {0, 1}}) == "bonds of net: the same two particles must not be bonded twice, got bond (0, 1)");
   CHECK(complaint({{0, 1}, {1, 2}, {1, 0}}) == "bonds of net: the same two particles must not be bonded twice, got bond (0, 1)");
 }
@@ -99,7 +101,8 @@ TEST_CASE("a bond is refused when its rest length or weight is no number, or it 
   CHECK(complaint({{0, 1, 7.0}}).empty());  // no box to be longer than
   std::vector<Bond> half{{0, 1}};
   const test::Cloud<1> points{Vector<1>(0.0), Vector<1>(0.5)};
-  CHECK_THROWS_AS((complete_bonds<1>(half, points, points, true, {.lower = {0.0}, .upper = {1.0}, .periodic = {true}}, "line")), dmp::ParameterError);
+  CHECK_THROWS_AS((complete_bonds<1>(half, points, points, true, {.lower = {0.0}, .upper = {1.0}, .periodic = {true}}, "line")),
+                  dmp::ParameterError);
 }
 
 TEST_CASE("ends in one place are a bond if a rest length is given, also zero") {
@@ -148,7 +151,9 @@ TEST_CASE("bonds of a lattice are listed where they fill packs: hardly an entry 
   for (std::uint32_t k = 0; k < n; ++k)
     for (std::uint32_t j = 0; j < n; ++j)
       for (std::uint32_t i = 0; i < n; ++i)
-        for (const std::array<std::uint32_t, 3> step : {std::array{1u, 0u, 0u}, {0u, 1u, 0u}, {0u, 0u, 1u}, {1u, 1u, 0u}, {1u, n - 1, 0u}, {1u, 0u, 1u}, {1u, 0u, n - 1}, {0u, 1u, 1u}, {0u, 1u, n - 1}})
+        for (const std::array<std::uint32_t, 3> step :
+             {std::array{1u, 0u, 0u}, {0u, 1u, 0u}, {0u, 0u, 1u}, {1u, 1u, 0u}, {1u, n - 1, 0u},
+              {1u, 0u, 1u}, {1u, 0u, n - 1}, {0u, 1u, 1u}, {0u, 1u, n - 1}})
           bonds.push_back({row(i, j, k), row((i + step[0]) % n, (j + step[1]) % n, (k + step[2]) % n), 1.0});
   for (const std::size_t pack : {2u, 4u, 8u}) {
     BondList list;
@@ -177,7 +182,8 @@ TEST_CASE("a bond of two groups is listed once in the list of either, at the end
   }
 }
 
-TEST_CASE("a net at random: with its reactions every bond acts once on either end; what is in vain goes to rows of the block that nobody reads") {
+TEST_CASE(
+    "a net at random: with its reactions every bond acts once on either end; what is in vain goes to rows of the block that nobody reads") {
   constexpr std::uint32_t beads = 50;
   test::Random random(1);
   std::vector<std::vector<double>> between(beads, std::vector<double>(beads, 0.0));

@@ -30,7 +30,8 @@ Rows expected(const test::Cloud<Dim>& points, const Vector<Dim>& x, double radiu
 /// Whether all that are near are found, and nobody that is farther than the radius by more than the margin that the grid admits to.
 template <int Dim>
 bool all_found(const CellGrid<Dim>& grid, const test::Cloud<Dim>& points, const Vector<Dim>& x, double radius, std::int64_t self = -1) {
-  const Rows rows = found(grid, x, radius, static_cast<std::uint32_t>(self)), near = expected(points, x, radius, self), around = expected(points, x, radius + grid.margin(), self);
+  const Rows rows = found(grid, x, radius, static_cast<std::uint32_t>(self)), near = expected(points, x, radius, self),
+             around = expected(points, x, radius + grid.margin(), self);
   return std::adjacent_find(rows.begin(), rows.end()) == rows.end() && std::includes(rows.begin(), rows.end(), near.begin(), near.end()) &&
          std::includes(around.begin(), around.end(), rows.begin(), rows.end());
 }
@@ -54,8 +55,8 @@ void check_against_every_pair(const test::Cloud<Dim>& points, unsigned seed) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("searching by cells finds whom looking at every particle finds", Dimension, std::integral_constant<int, 1>, std::integral_constant<int, 2>,
-                   std::integral_constant<int, 3>) {
+TEST_CASE_TEMPLATE("searching by cells finds whom looking at every particle finds", Dimension, std::integral_constant<int, 1>,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int dim = Dimension::value;
   SUBCASE("scattered particles") { check_against_every_pair(test::scattered<dim>(300, 1.0, 1), 2); }
   SUBCASE("clusters and empty cells") { check_against_every_pair(test::clustered<dim>(300, 1.0, 3), 4); }
@@ -73,7 +74,9 @@ TEST_CASE_TEMPLATE("searching by cells finds whom looking at every particle find
   }
 }
 
-TEST_CASE("a particle a rounding closer than the radius is near, one farther by more than the margin is not; the margin is a small part of the extent") {
+TEST_CASE(
+    "a particle a rounding closer than the radius is near, one farther by more than the margin is not; the margin is a small part of the "
+    "extent") {
   CellGrid<2> grid;
   grid.build(test::Cloud<2>{{0.0, 0.0}, {0.25, 0.0}, {0.0, -0.25}, {-0.75, 1.0}}, 0.125);
   CHECK(grid.margin() <= 5e-7 * 1.25);
@@ -93,7 +96,8 @@ TEST_CASE("how far those are that are found: squared distances, as a fraction of
     grid.find(points[i], 0.3, near);
     CHECK(near.size > 1);
     for (std::size_t k = 0; k < near.size; ++k)
-      CHECK(static_cast<double>(near.fraction[k]) == doctest::Approx((points[near.rows[k]] - points[i]).squaredNorm() / 0.09).epsilon(1e-5));
+      CHECK(static_cast<double>(near.fraction[k]) ==
+            doctest::Approx((points[near.rows[k]] - points[i]).squaredNorm() / 0.09).epsilon(1e-5));
   }
 }
 
@@ -133,8 +137,8 @@ TEST_CASE("two clusters a million radii apart take no more cells than particles 
   for (std::uint32_t i = 0; i < 100; ++i) CHECK(all_found(grid, points, points[i], 0.3, i));
 }
 
-TEST_CASE_TEMPLATE("the order of the cells holds every particle once, and brings those near in space near in memory", Dimension, std::integral_constant<int, 1>,
-                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+TEST_CASE_TEMPLATE("the order of the cells holds every particle once, and brings those near in space near in memory", Dimension,
+                   std::integral_constant<int, 1>, std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int dim = Dimension::value;
   const auto points = test::scattered<dim>(1000, 1.0, 1);
   CellGrid<dim> grid;

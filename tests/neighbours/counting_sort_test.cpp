@@ -57,7 +57,8 @@ TEST_CASE("where the rows of a key begin, those without rows among them") {
     sort_by(sort, key, keys);
     std::size_t wrong = 0;
     for (std::size_t k = 0; k <= keys; ++k)
-      wrong += sort.begin(k) != static_cast<std::size_t>(std::count_if(key.begin(), key.end(), [k](std::uint32_t other) { return other < k; }));
+      wrong +=
+          sort.begin(k) != static_cast<std::size_t>(std::count_if(key.begin(), key.end(), [k](std::uint32_t other) { return other < k; }));
     CHECK(wrong == 0);
   }
 }

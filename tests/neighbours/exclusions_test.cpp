@@ -69,7 +69,8 @@ TEST_CASE("pairs joined by 1, 2 or 3 bonds are left out, and no others: chain, r
 }
 
 TEST_CASE("exclusions reach from group to group, through particles of either") {
-  // Beads 0 .. 3 are nodes 0 .. 3, anchors 0 .. 2 are nodes 4 .. 6: anchor 0 - bead 0 - bead 1 - bead 2 - anchor 2, bead 3 and anchor 1 free.
+  // Beads 0 .. 3 are nodes 0 .. 3, anchors 0 .. 2 are nodes 4 .. 6: anchor 0 - bead 0 - bead 1 - bead 2 - anchor 2,
+  // bead 3 and anchor 1 free.
   const BondGraph graph = graph_of(7, {{4, 0}, {0, 1}, {1, 2}, {2, 6}});
   Exclusions beads, anchors;
   beads.build(graph, {0, 4}, {4, 3}, 2);

@@ -15,7 +15,8 @@ std::vector<test::Image<Dim>> images(const Ghosts<Dim>& ghosts, const dmp::geome
   std::vector<test::Image<Dim>> result;
   for (std::size_t k = 0; k < ghosts.size(); ++k) {
     std::array<int, Dim> boxes;
-    for (int d = 0; d < Dim; ++d) boxes[static_cast<std::size_t>(d)] = static_cast<int>(std::lround(ghosts.shift[k][d] / (box.upper[d] - box.lower[d])));
+    for (int d = 0; d < Dim; ++d)
+      boxes[static_cast<std::size_t>(d)] = static_cast<int>(std::lround(ghosts.shift[k][d] / (box.upper[d] - box.lower[d])));
     result.push_back({ghosts.owner[k], boxes});
   }
   std::sort(result.begin(), result.end());

@@ -87,7 +87,8 @@ void for_each_image(std::uint32_t row, const dmp::geometry::Box<Dim>& box, const
 }
 
 template <int Dim>
-[[nodiscard]] dmp::Vector<Dim> position_of(const Image<Dim>& image, std::span<const dmp::Vector<Dim>> points, const dmp::geometry::Box<Dim>& box) {
+[[nodiscard]] dmp::Vector<Dim> position_of(const Image<Dim>& image, std::span<const dmp::Vector<Dim>> points,
+                                           const dmp::geometry::Box<Dim>& box) {
   dmp::Vector<Dim> x = points[image.first];
   for (int d = 0; d < Dim; ++d)
     if (const int boxes = image.second[static_cast<std::size_t>(d)]; boxes != 0) x[d] += boxes * (box.upper[d] - box.lower[d]);
@@ -96,8 +97,8 @@ template <int Dim>
 
 /// Everything closer than `radius` to `x`, in order; `self` (a row, or -1) does not count, its images do.
 template <int Dim>
-[[nodiscard]] std::vector<Image<Dim>> all_near(const dmp::Vector<Dim>& x, double radius, std::int64_t self, std::span<const dmp::Vector<Dim>> points,
-                                               const dmp::geometry::Box<Dim>& box) {
+[[nodiscard]] std::vector<Image<Dim>> all_near(const dmp::Vector<Dim>& x, double radius, std::int64_t self,
+                                               std::span<const dmp::Vector<Dim>> points, const dmp::geometry::Box<Dim>& box) {
   std::vector<Image<Dim>> near;
   for (std::uint32_t row = 0; row < points.size(); ++row)
     for_each_image<Dim>(row, box, [&](const Image<Dim>& image) {

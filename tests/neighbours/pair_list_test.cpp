@@ -69,7 +69,8 @@ struct Search {
       std::array<int, Dim> boxes{};
       if (row >= owned())
         for (int d = 0; d < Dim; ++d)
-          boxes[static_cast<std::size_t>(d)] = static_cast<int>(std::lround(ghosts.shift.at(row - first_ghost())[d] / (box.upper[d] - box.lower[d])));
+          boxes[static_cast<std::size_t>(d)] =
+              static_cast<int>(std::lround(ghosts.shift.at(row - first_ghost())[d] / (box.upper[d] - box.lower[d])));
       result.push_back({row < owned() ? row : ghosts.owner.at(row - first_ghost()), boxes});
     }
     std::sort(result.begin(), result.end());
@@ -80,7 +81,8 @@ struct Search {
   [[nodiscard]] std::vector<test::Image<Dim>> expected(bool listed_once, std::size_t block, std::size_t i, double radius) const {
     auto near = test::all_near<Dim>(of[i], radius, same_group ? static_cast<std::int64_t>(i) : -1, sources, box);
     std::erase_if(near, [&](const test::Image<Dim>& image) {
-      const bool in_block = same_group && once && image.second == std::array<int, Dim>{} && image.first >= blocks.begin(block) && image.first < blocks.end(block);
+      const bool in_block = same_group && once && image.second == std::array<int, Dim>{} && image.first >= blocks.begin(block) &&
+                            image.first < blocks.end(block);
       return listed_once != in_block || (in_block && image.first < i);
     });
     return near;
@@ -92,8 +94,10 @@ struct Search {
       const auto lists = list.of(block, i);
       for (const bool listed_once : {true, false}) {
         const auto rows = listed_once ? lists.once : lists.others;
-        const auto listed = images(rows), near = expected(listed_once, block, i, reach()), around = expected(listed_once, block, i, reach() + margin);
-        const bool right = std::adjacent_find(listed.begin(), listed.end()) == listed.end() && std::includes(listed.begin(), listed.end(), near.begin(), near.end()) &&
+        const auto listed = images(rows), near = expected(listed_once, block, i, reach()),
+                   around = expected(listed_once, block, i, reach() + margin);
+        const bool right = std::adjacent_find(listed.begin(), listed.end()) == listed.end() &&
+                           std::includes(listed.begin(), listed.end(), near.begin(), near.end()) &&
                            std::includes(around.begin(), around.end(), listed.begin(), listed.end());
         const bool whole_packs = rows.size() == (listed.size() + pack - 1) / pack * pack;
         const auto first_filler = rows.begin() + static_cast<std::ptrdiff_t>(std::min(listed.size(), rows.size()));
@@ -101,7 +105,8 @@ struct Search {
         wrong += !(right && whole_packs && fillers_last);
       }
       const auto all = list.all(block, i);
-      wrong += !(all.data() == lists.once.data() && all.data() + lists.once.size() == lists.others.data() && all.size() == lists.once.size() + lists.others.size());
+      wrong += !(all.data() == lists.once.data() && all.data() + lists.once.size() == lists.others.data() &&
+                 all.size() == lists.once.size() + lists.others.size());
     });
     return wrong;
   }
@@ -112,8 +117,10 @@ struct Search {
       const auto lists = list.of(block, i);
       for (std::size_t level = 0; level < PairList::levels; ++level)
         for (const bool listed_once : {true, false}) {
-          const auto rows = listed_once ? lists.once : lists.others, read = listed_once ? list.of(block, i, level).once : list.of(block, i, level).others;
-          const auto seen = images(read), near = expected(listed_once, block, i, cutoff + skin * static_cast<double>(level + 1) / PairList::levels);
+          const auto rows = listed_once ? lists.once : lists.others,
+                     read = listed_once ? list.of(block, i, level).once : list.of(block, i, level).others;
+          const auto seen = images(read),
+                     near = expected(listed_once, block, i, cutoff + skin * static_cast<double>(level + 1) / PairList::levels);
           wrong += !(read.data() == rows.data() && read.size() <= rows.size() && read.size() % pack == 0 &&
                      std::includes(seen.begin(), seen.end(), near.begin(), near.end()));
         }
@@ -127,8 +134,8 @@ void check_against_every_pair(const std::array<bool, Dim>& periodic) {
   const auto box = test::cube<Dim>(1.0, periodic);
   for (const double radius : {0.08, 0.25, 0.7}) {  // 0.7: longer than half the box, so a neighbour may be near twice
     CAPTURE(radius);
-    const test::Cloud<Dim> clouds[] = {test::scattered<Dim>(100, 1.0, 1), test::clustered<Dim>(100, 1.0, 2), test::lattice<Dim>(Dim == 1 ? 16 : 4, 1.0),
-                                       test::scattered<Dim>(1, 1.0, 3)};
+    const test::Cloud<Dim> clouds[] = {test::scattered<Dim>(100, 1.0, 1), test::clustered<Dim>(100, 1.0, 2),
+                                       test::lattice<Dim>(Dim == 1 ? 16 : 4, 1.0), test::scattered<Dim>(1, 1.0, 3)};
     for (std::size_t cloud = 0; cloud < std::size(clouds); ++cloud) {
       CAPTURE(cloud);
       Search<Dim> among_themselves{.of = clouds[cloud], .sources = clouds[cloud], .box = box, .cutoff = radius, .same_group = true};
@@ -137,7 +144,8 @@ void check_against_every_pair(const std::array<bool, Dim>& periodic) {
       among_themselves.once = false;
       among_themselves.run();
       CHECK(among_themselves.wrong_lists() == 0);
-      Search<Dim> other_group{.of = test::scattered<Dim>(70, 1.0, 4), .sources = clouds[cloud], .box = box, .cutoff = radius, .same_group = false};
+      Search<Dim> other_group{
+          .of = test::scattered<Dim>(70, 1.0, 4), .sources = clouds[cloud], .box = box, .cutoff = radius, .same_group = false};
       other_group.of.push_back(clouds[cloud][0]);  // in one place with a source: a neighbour
       other_group.run();
       CHECK(other_group.wrong_lists() == 0);
@@ -162,8 +170,14 @@ TEST_CASE("lists hold whom looking at every pair finds, in space") {
   check_against_every_pair<3>({true, true, true});
 }
 
-TEST_CASE("neighbours farther than the cut-off by more than the margin are not listed, those a rounding closer are, directly or through a periodic face") {
-  Search<2> search{.of = test::lattice<2>(8, 1.0), .sources = test::lattice<2>(8, 1.0), .box = test::cube<2>(1.0, {true, true}), .cutoff = 0.125 * (1.0 - 1e-5), .same_group = true};
+TEST_CASE(
+    "neighbours farther than the cut-off by more than the margin are not listed, those a rounding closer are, directly or through a "
+    "periodic face") {
+  Search<2> search{.of = test::lattice<2>(8, 1.0),
+                   .sources = test::lattice<2>(8, 1.0),
+                   .box = test::cube<2>(1.0, {true, true}),
+                   .cutoff = 0.125 * (1.0 - 1e-5),
+                   .same_group = true};
   search.run();
   CHECK(search.margin < 0.125e-5);
   search.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });
@@ -178,15 +192,20 @@ TEST_CASE("neighbours farther than the cut-off by more than the margin are not l
 }
 
 TEST_CASE("every neighbour sees back: in full, or as the partner of a pair listed once") {
-  Search<2> search{.of = test::clustered<2>(300, 1.0, 5), .sources = test::clustered<2>(300, 1.0, 5), .box = test::cube<2>(1.0, {true, true}),
-                   .cutoff = 0.15, .same_group = true, .bounds = {0, 50, 51, 200, 300}};
+  Search<2> search{.of = test::clustered<2>(300, 1.0, 5),
+                   .sources = test::clustered<2>(300, 1.0, 5),
+                   .box = test::cube<2>(1.0, {true, true}),
+                   .cutoff = 0.15,
+                   .same_group = true,
+                   .bounds = {0, 50, 51, 200, 300}};
   search.run();
   std::vector<std::vector<std::uint32_t>> seen(search.of.size()), seeing(search.of.size());
   search.for_each_particle([&](std::size_t block, std::size_t i, auto rows) {
     for (const auto& image : search.images(rows)) {
       seeing[i].push_back(image.first);
       seen[image.first].push_back(static_cast<std::uint32_t>(i));
-      if (image.second != std::array<int, 2>{} || image.first < search.blocks.begin(block) || image.first >= search.blocks.end(block)) continue;
+      if (image.second != std::array<int, 2>{} || image.first < search.blocks.begin(block) || image.first >= search.blocks.end(block))
+        continue;
       seeing[image.first].push_back(static_cast<std::uint32_t>(i));  // the law speaks for both
       seen[i].push_back(image.first);
     }
@@ -206,13 +225,18 @@ TEST_CASE("what the skin is for: at each level every pair is there that can act 
     CAPTURE(skin);
     for (const auto& periodic : {std::array{false, false}, std::array{true, true}})
       for (const auto& cloud : {test::scattered<2>(120, 1.0, 1), test::clustered<2>(120, 1.0, 2), test::lattice<2>(8, 1.0)}) {
-        Search<2> search{.of = cloud, .sources = cloud, .box = test::cube<2>(1.0, periodic), .cutoff = 0.125, .same_group = true, .skin = skin};
+        Search<2> search{
+            .of = cloud, .sources = cloud, .box = test::cube<2>(1.0, periodic), .cutoff = 0.125, .same_group = true, .skin = skin};
         search.run();
         CHECK(search.wrong_lists() == 0);
         CHECK(search.wrong_levels() == 0);
       }
-    Search<3> two_groups{.of = test::scattered<3>(50, 1.0, 3), .sources = test::scattered<3>(150, 1.0, 4), .box = test::cube<3>(1.0, {true, false, true}),
-                         .cutoff = 0.2, .same_group = false, .skin = skin};
+    Search<3> two_groups{.of = test::scattered<3>(50, 1.0, 3),
+                         .sources = test::scattered<3>(150, 1.0, 4),
+                         .box = test::cube<3>(1.0, {true, false, true}),
+                         .cutoff = 0.2,
+                         .same_group = false,
+                         .skin = skin};
     two_groups.run();
     CHECK(two_groups.wrong_lists() == 0);
     CHECK(two_groups.wrong_levels() == 0);
@@ -220,24 +244,32 @@ TEST_CASE("what the skin is for: at each level every pair is there that can act 
 }
 
 TEST_CASE("the lower levels are shorter: a list just built is read as far as a quarter of the skin") {
-  Search<3> search{.of = test::scattered<3>(600, 1.0, 1), .sources = test::scattered<3>(600, 1.0, 1), .box = test::cube<3>(1.0, {true, true, true}),
-                   .cutoff = 0.2, .same_group = true, .skin = 0.1};
+  Search<3> search{.of = test::scattered<3>(600, 1.0, 1),
+                   .sources = test::scattered<3>(600, 1.0, 1),
+                   .box = test::cube<3>(1.0, {true, true, true}),
+                   .cutoff = 0.2,
+                   .same_group = true,
+                   .skin = 0.1};
   search.run();
   std::array<double, PairList::levels> entries{};
   search.for_each_particle([&](std::size_t block, std::size_t i, auto) {
-    for (std::size_t level = 0; level < PairList::levels; ++level) entries[level] += static_cast<double>(search.list.of(block, i, level).once.size() + search.list.of(block, i, level).others.size());
+    for (std::size_t level = 0; level < PairList::levels; ++level)
+      entries[level] += static_cast<double>(search.list.of(block, i, level).once.size() + search.list.of(block, i, level).others.size());
   });
   for (std::size_t level = 0; level < PairList::levels; ++level) {
     const double radius = 0.2 + 0.1 * static_cast<double>(level + 1) / PairList::levels;
-    CHECK(entries[level] / entries.back() == doctest::Approx(std::pow(radius / 0.3, 3)).epsilon(0.15));  // packs of four make the short ones longer
+    CHECK(entries[level] / entries.back() ==
+          doctest::Approx(std::pow(radius / 0.3, 3)).epsilon(0.15));  // packs of four make the short ones longer
   }
 }
 
 TEST_CASE("two groups, each with lists of the other of its own reach, as with two supports") {
   const auto few = test::scattered<2>(120, 1.0, 1), many = test::clustered<2>(400, 1.0, 2);
   for (const double cutoff : {0.05, 0.3}) {
-    Search<2> of_few{.of = few, .sources = many, .box = test::cube<2>(1.0, {true, true}), .cutoff = cutoff, .same_group = false, .skin = 0.02};
-    Search<2> of_many{.of = many, .sources = few, .box = test::cube<2>(1.0, {true, true}), .cutoff = cutoff, .same_group = false, .skin = 0.02};
+    Search<2> of_few{
+        .of = few, .sources = many, .box = test::cube<2>(1.0, {true, true}), .cutoff = cutoff, .same_group = false, .skin = 0.02};
+    Search<2> of_many{
+        .of = many, .sources = few, .box = test::cube<2>(1.0, {true, true}), .cutoff = cutoff, .same_group = false, .skin = 0.02};
     of_few.run();
     of_many.run();
     CHECK(of_few.wrong_lists() == 0);
@@ -280,13 +312,20 @@ TEST_CASE("lists do not depend on the number of threads, entry by entry") {
   std::vector<std::vector<std::uint32_t>> first;
   for (const int count : {1, 2, 3, 4}) {
     const test::Threads threads(count);
-    Search<3> search{.of = cloud, .sources = cloud, .box = test::cube<3>(1.0, {true, true, true}), .cutoff = 0.08, .same_group = true, .skin = 0.02, .bounds = bounds};
+    Search<3> search{.of = cloud,
+                     .sources = cloud,
+                     .box = test::cube<3>(1.0, {true, true, true}),
+                     .cutoff = 0.08,
+                     .same_group = true,
+                     .skin = 0.02,
+                     .bounds = bounds};
     search.run();
     CHECK(search.blocks.ranges().size() == static_cast<std::size_t>(count));
     std::vector<std::vector<std::uint32_t>> lists;
     search.for_each_particle([&](std::size_t block, std::size_t i, auto) {
       for (std::size_t level = 0; level < PairList::levels; ++level)
-        for (const auto list : {search.list.of(block, i, level).once, search.list.of(block, i, level).others}) lists.emplace_back(list.begin(), list.end());
+        for (const auto list : {search.list.of(block, i, level).once, search.list.of(block, i, level).others})
+          lists.emplace_back(list.begin(), list.end());
     });
     if (first.empty()) first = lists;
     CHECK(lists == first);
@@ -294,8 +333,12 @@ TEST_CASE("lists do not depend on the number of threads, entry by entry") {
 }
 
 TEST_CASE("the entries of a block are those of its particles") {
-  Search<2> search{.of = test::clustered<2>(200, 1.0, 5), .sources = test::clustered<2>(200, 1.0, 5), .box = test::cube<2>(1.0), .cutoff = 0.1,
-                   .same_group = true, .bounds = {0, 60, 61, 200}};
+  Search<2> search{.of = test::clustered<2>(200, 1.0, 5),
+                   .sources = test::clustered<2>(200, 1.0, 5),
+                   .box = test::cube<2>(1.0),
+                   .cutoff = 0.1,
+                   .same_group = true,
+                   .bounds = {0, 60, 61, 200}};
   search.run();
   std::vector<double> entries(3, 0.0);
   search.for_each_particle([&](std::size_t block, std::size_t, auto rows) { entries[block] += static_cast<double>(rows.size()); });
@@ -324,13 +367,18 @@ TEST_CASE("no particle has no list, one alone an empty one, and nobody to list l
   one.skin = 0.1001;
   one.run();
   one.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(one.images(rows).size() == 4); });
-  Search<2> alone{.of = test::scattered<2>(10, 1.0, 8), .sources = {}, .box = test::cube<2>(1.0, {true, true}), .cutoff = 0.5, .same_group = false};
+  Search<2> alone{
+      .of = test::scattered<2>(10, 1.0, 8), .sources = {}, .box = test::cube<2>(1.0, {true, true}), .cutoff = 0.5, .same_group = false};
   alone.run();
   alone.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });
 }
 
 TEST_CASE("a list built again forgets the lists before") {
-  Search<2> search{.of = test::scattered<2>(100, 1.0, 9), .sources = test::scattered<2>(100, 1.0, 9), .box = test::cube<2>(1.0), .cutoff = 0.5, .same_group = true};
+  Search<2> search{.of = test::scattered<2>(100, 1.0, 9),
+                   .sources = test::scattered<2>(100, 1.0, 9),
+                   .box = test::cube<2>(1.0),
+                   .cutoff = 0.5,
+                   .same_group = true};
   search.run();
   search.of = search.sources = test::scattered<2>(60, 1.0, 10);
   search.cutoff = 0.1;
@@ -351,7 +399,8 @@ TEST_CASE("bonded particles leave the lists, as ghosts too, and the fillers clos
     CAPTURE(reach);
     Exclusions excluded;
     excluded.build(graph, {0, 12}, {0, 12}, reach);
-    Search<1> search{.of = ring, .sources = ring, .box = test::cube<1>(1.0, {true}), .cutoff = 3.0 / 12.0, .same_group = true, .skin = 1.2 / 12.0};
+    Search<1> search{
+        .of = ring, .sources = ring, .box = test::cube<1>(1.0, {true}), .cutoff = 3.0 / 12.0, .same_group = true, .skin = 1.2 / 12.0};
     search.run(excluded);
     search.for_each_particle([&](std::size_t block, std::size_t i, auto rows) {
       CHECK(rows.size() % pack == 0);

@@ -41,12 +41,13 @@ std::vector<Bounds<Dim>> boxes_of(const SpatialOrder<Dim>& order, const test::Cl
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("an order holds every particle once, and its blocks follow each other without gaps", Dimension, std::integral_constant<int, 1>,
-                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+TEST_CASE_TEMPLATE("an order holds every particle once, and its blocks follow each other without gaps", Dimension,
+                   std::integral_constant<int, 1>, std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int dim = Dimension::value;
   SpatialOrder<dim> order;  // one for all: nothing stays from the one before
   for (const std::size_t count : {9000u, 100u, 1u, 7u, 0u})
-    for (const auto& points : {test::scattered<dim>(count, 1.0, 1), test::clustered<dim>(count, 1.0, 2), test::Cloud<dim>(count, dmp::Vector<dim>::Constant(0.2))})
+    for (const auto& points : {test::scattered<dim>(count, 1.0, 1), test::clustered<dim>(count, 1.0, 2),
+                               test::Cloud<dim>(count, dmp::Vector<dim>::Constant(0.2))})
       for (const double cell : {1e-4, 0.02, 5.0})
         for (const double particles_per_cell : {0.0, 3.0}) {
           CAPTURE(count);
@@ -82,8 +83,8 @@ TEST_CASE_TEMPLATE("the blocks of an even cloud are boxes that do not overlap, c
   }
 }
 
-TEST_CASE_TEMPLATE("within a block, those near in memory are near in space", Dimension, std::integral_constant<int, 1>, std::integral_constant<int, 2>,
-                   std::integral_constant<int, 3>) {
+TEST_CASE_TEMPLATE("within a block, those near in memory are near in space", Dimension, std::integral_constant<int, 1>,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int dim = Dimension::value;
   const auto points = test::scattered<dim>(20000, 1.0, 4);
   const double cell = std::pow(10.0 / 20000.0, 1.0 / dim);

@@ -16,8 +16,8 @@ static_assert(Columns<2, Fields<>>::bytes_per_particle == 0);
 static_assert(Columns<2, Fields<field::Position, field::Density>>::bytes_per_particle == 24);  // two components and a number, no z
 static_assert(Columns<3, Fields<field::Position, field::Velocity, field::Density>>::bytes_per_particle == 56);
 
-TEST_CASE_TEMPLATE("new rows are zero, and growing keeps the old ones", Dimension, std::integral_constant<int, 1>, std::integral_constant<int, 2>,
-                   std::integral_constant<int, 3>) {
+TEST_CASE_TEMPLATE("new rows are zero, and growing keeps the old ones", Dimension, std::integral_constant<int, 1>,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int dim = Dimension::value;
   Columns<dim, Fields<field::Position, field::Density>> columns;
   columns.resize(2);
@@ -47,7 +47,8 @@ TEST_CASE("sorting moves whole particles: every column by the same order, there 
   for (std::uint32_t k = 0; k < count; ++k) back[order[k]] = k;
 
   const auto holds = [&columns](std::size_t row, double x) {
-    return columns.get<field::Position>()[row] == Vector<3>(x, -x, 0.5 * x) && columns.get<field::Velocity>()[row] == Vector<3>(2.0 * x, 3.0 * x, 4.0 * x) &&
+    return columns.get<field::Position>()[row] == Vector<3>(x, -x, 0.5 * x) &&
+           columns.get<field::Velocity>()[row] == Vector<3>(2.0 * x, 3.0 * x, 4.0 * x) &&
            columns.get<field::Density>()[row] == 1000.0 + x && columns.get<field::SpecificEnergy>()[row] == 1.0 / (1.0 + x);
   };
   std::vector<double> scratch(3 * count);

@@ -60,8 +60,8 @@ TEST_CASE("double precision: positions and other numbers come back bit for bit")
   CHECK(errors.separation == 0.0);
 }
 
-TEST_CASE_TEMPLATE("single precision: positions to 2^-31 of the extent wherever they are, other numbers to 2^-24", Dimension, std::integral_constant<int, 1>,
-                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+TEST_CASE_TEMPLATE("single precision: positions to 2^-31 of the extent wherever they are, other numbers to 2^-24", Dimension,
+                   std::integral_constant<int, 1>, std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   for (const double length : {0.01, 1.0, 100.0}) {
     const Errors<dmp::precision::Single, Dimension::value> errors(length);
     CHECK(errors.position <= 1000.0 * 0x1p-31 * 1.001);

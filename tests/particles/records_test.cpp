@@ -55,7 +55,8 @@ void check_round_trip() {
   using Lanes = dmp::Pack<double, R::width>;
   for (std::uint32_t start = 0; start < count; start += 5) {
     std::uint32_t index[R::width];
-    for (std::uint32_t lane = 0; lane < R::width; ++lane) index[lane] = static_cast<std::uint32_t>((start + 17 * lane * lane) % count);  // any order, repetitions
+    for (std::uint32_t lane = 0; lane < R::width; ++lane)
+      index[lane] = static_cast<std::uint32_t>((start + 17 * lane * lane) % count);                           // any order, repetitions
     index[R::width - 1] = count - 1;                                                                          // the very last record
     const auto gathered = records.gather(index);
     const auto spread = records.template spread<Lanes>(index[0]);
@@ -78,7 +79,8 @@ TEST_CASE("what is stored in a record is loaded, spread and gathered again: 1 to
   check_round_trip<3, Fields<field::Position, field::Density>>();
   check_round_trip<3, Fields<field::Position, field::Velocity, field::Density, field::PressureTerm>>();
   check_round_trip<3, Fields<field::Position, field::Velocity, field::Density, field::PressureTerm, field::DynamicViscosity>>();
-  check_round_trip<3, Fields<field::Position, field::Velocity, field::Density, field::PressureTerm, field::DynamicViscosity, field::SpecificEnergy>>();
+  check_round_trip<
+      3, Fields<field::Position, field::Velocity, field::Density, field::PressureTerm, field::DynamicViscosity, field::SpecificEnergy>>();
 }
 
 TEST_CASE("the record of a weakly compressible fluid in space is one cache line") {

@@ -81,9 +81,11 @@ void check_all() {
 
 }  // namespace
 
-TEST_CASE("sums: lanes are added to the records they name if these lie in the range, otherwise aside; a record is taken once; packs of double") {
+TEST_CASE(
+    "sums: lanes are added to the records they name if these lie in the range, otherwise aside; a record is taken once; packs of double") {
   check_all<double>();
 }
-TEST_CASE("sums: lanes are added to the records they name if these lie in the range, otherwise aside; a record is taken once; packs of float") {
+TEST_CASE(
+    "sums: lanes are added to the records they name if these lie in the range, otherwise aside; a record is taken once; packs of float") {
   check_all<float>();
 }

@@ -33,9 +33,10 @@ struct Pair {
 };
 template <class Integrator = Leapfrog, class Law>
 auto pair_of(const Law& law, const Pair& with) {
-  auto result = scene<Integrator>(Box<1>::unbounded(), group<Left>("left", particles::Frozen<1>{}, Points<1>{{Vector<1>(0.0)}}, 1.0),
-                                  group<Right>("right", Mobile{}, Points<1>{{Vector<1>(rest_length)}}, with.mass), bonds<Left, Right>(law, {{0, 0}}),
-                                  forced_by<Right>(forcing::Constant<1>{.uniform_acceleration = {{{with.force / with.mass}}}}));
+  auto result =
+      scene<Integrator>(Box<1>::unbounded(), group<Left>("left", particles::Frozen<1>{}, Points<1>{{Vector<1>(0.0)}}, 1.0),
+                        group<Right>("right", Mobile{}, Points<1>{{Vector<1>(rest_length)}}, with.mass), bonds<Left, Right>(law, {{0, 0}}),
+                        forced_by<Right>(forcing::Constant<1>{.uniform_acceleration = {{{with.force / with.mass}}}}));
   result.template group<Right>().positions()[0][0] += with.extension;
   result.template group<Right>().template get<field::Velocity>()[0][0] = with.speed;
   return result;
@@ -51,8 +52,11 @@ TEST_CASE("relaxation at a held extension is k X e^(-k t/c), and X (k_e + k_m e^
     auto liquid = pair_of(Maxwell{.stiffness = 3.0, .damping = 6.0}, {.extension = 0.5});
     auto solid = pair_of(StandardLinearSolid{.stiffness = 2.0, .branch_stiffness = 6.0, .branch_damping = 3.0}, {.extension = 0.5});
     double worst = 0.0;
-    liquid.every(1.0, [&](const auto& s) { worst = std::max(worst, std::fabs(tension(s, held) / (1.5 * std::exp(-0.5 * s.time())) - 1.0)); });
-    solid.every(1.0, [&](const auto& s) { worst = std::max(worst, std::fabs(tension(s, held) / (0.5 * (2.0 + 6.0 * std::exp(-2.0 * s.time()))) - 1.0)); });
+    liquid.every(1.0,
+                 [&](const auto& s) { worst = std::max(worst, std::fabs(tension(s, held) / (1.5 * std::exp(-0.5 * s.time())) - 1.0)); });
+    solid.every(1.0, [&](const auto& s) {
+      worst = std::max(worst, std::fabs(tension(s, held) / (0.5 * (2.0 + 6.0 * std::exp(-2.0 * s.time()))) - 1.0));
+    });
     liquid.run({.until = 5.0, .time_step = step});
     solid.run({.until = 5.0, .time_step = step});
     CHECK(worst <= 1e-12);
@@ -118,7 +122,8 @@ TEST_CASE("limits of a standard linear solid: no branch, a dashpot too stiff to 
 TEST_CASE("the bound of the step of a standard linear solid is that of both its springs, and it is stable at 0.95 of it") {
   for (const double damping : {1e-3, 0.3, 3.0, 1e3}) {
     CAPTURE(damping);
-    auto solid = pair_of(StandardLinearSolid{.stiffness = 2.0, .branch_stiffness = 6.0, .branch_damping = damping}, {.mass = 1.0, .extension = 0.1});
+    auto solid =
+        pair_of(StandardLinearSolid{.stiffness = 2.0, .branch_stiffness = 6.0, .branch_damping = damping}, {.mass = 1.0, .extension = 0.1});
     const double bound = 2.0 / std::sqrt(8.0);
     CHECK(solid.step_limit().stable_time_step == doctest::Approx(bound).epsilon(1e-14));
     solid.run({.until = 5000.0 * bound, .time_step = 0.95 * bound});
@@ -174,13 +179,14 @@ auto lattice() {
   }();
   auto result = scene<Leapfrog>(Box<3>{.lower = {0.0, 0.0, 0.0}, .upper = {length, length, length}, .periodic = {true, true, true}},
                                 group<Net>("net", Mobile{}, beads, 1.0), group<Other>("others", Mobile{}, others, 0.5),
-                                group<Plate>("plate", Driven<Shake>{}, plate, 1.0), within, bonds<Net, Other>(Maxwell{.stiffness = 30.0, .damping = 2.0}, between),
-                                bonds<Plate, Net>(solid, [&] {
+                                group<Plate>("plate", Driven<Shake>{}, plate, 1.0), within,
+                                bonds<Net, Other>(Maxwell{.stiffness = 30.0, .damping = 2.0}, between), bonds<Plate, Net>(solid, [&] {
                                   for (Bond& bond : to_plate) std::swap(bond.i, bond.j);
                                   return to_plate;
                                 }()));
   test::RandomVectors random;
-  result.template group<Net>().template set<field::Velocity>([&](const auto&) { return Vector<3>(random.vector(0.2) + Vector<3>(0.5, 0.0, -0.3)); });
+  result.template group<Net>().template set<field::Velocity>(
+      [&](const auto&) { return Vector<3>(random.vector(0.2) + Vector<3>(0.5, 0.0, -0.3)); });
   result.template group<Other>().template set<field::Velocity>([&](const auto&) { return random.vector(0.2); });
   return result;
 }
@@ -210,7 +216,8 @@ void for_each_memory(neighbours::BondList& list, std::size_t particles, auto&& f
     const auto entries = list.of(i);
     const auto memory = list.memory_of(i);
     for (std::size_t k = 0; k < entries.size; ++k)
-      if (entries.rest_length[k] >= 0.0) function(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(list.partner_of(i, k)), memory.memory[k], memory.length[k]);
+      if (entries.rest_length[k] >= 0.0)
+        function(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(list.partner_of(i, k)), memory.memory[k], memory.length[k]);
   }
 }
 
@@ -229,21 +236,23 @@ TEST_CASE("bonds that are listed at both ends remember the same, bit for bit: ac
       using I = std::remove_cvref_t<decltype(active.item)>;
       constexpr bool same = std::is_same_v<typename I::A, typename I::B>;
       std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<double, double>> seen;
-      for_each_memory(active.of_a, scene.template group<typename I::A>().size(), [&](std::uint32_t i, std::uint32_t j, double memory, double length) {
-        largest = std::max(largest, std::fabs(memory));
-        if (const auto other = seen.find({j, i}); same && other != seen.end()) {
-          ++twice;
-          different += other->second != std::pair(memory, length);
-        }
-        seen[{i, j}] = {memory, length};
-      });
+      for_each_memory(active.of_a, scene.template group<typename I::A>().size(),
+                      [&](std::uint32_t i, std::uint32_t j, double memory, double length) {
+                        largest = std::max(largest, std::fabs(memory));
+                        if (const auto other = seen.find({j, i}); same && other != seen.end()) {
+                          ++twice;
+                          different += other->second != std::pair(memory, length);
+                        }
+                        seen[{i, j}] = {memory, length};
+                      });
       if (!same)
-        for_each_memory(active.of_b, scene.template group<typename I::B>().size(), [&](std::uint32_t i, std::uint32_t j, double memory, double length) {
-          if (const auto other = seen.find({j, i}); other != seen.end()) {
-            ++twice;
-            different += other->second != std::pair(memory, length);
-          }
-        });
+        for_each_memory(active.of_b, scene.template group<typename I::B>().size(),
+                        [&](std::uint32_t i, std::uint32_t j, double memory, double length) {
+                          if (const auto other = seen.find({j, i}); other != seen.end()) {
+                            ++twice;
+                            different += other->second != std::pair(memory, length);
+                          }
+                        });
     }
   });
   CHECK(twice > 3000);
@@ -344,7 +353,8 @@ TEST_CASE("bonds with memory in packs do what a plain loop over the bonds does")
   CHECK(worst <= 1e-11);
 }
 
-TEST_CASE("a net of bonds with memory: momentum and angular momentum are kept, energy is given off and never gained; rigid motion is free") {
+TEST_CASE(
+    "a net of bonds with memory: momentum and angular momentum are kept, energy is given off and never gained; rigid motion is free") {
   test::RandomVectors random;
   std::vector<Vector<3>> beads;
   std::vector<Bond> list;
@@ -365,7 +375,8 @@ TEST_CASE("a net of bonds with memory: momentum and angular momentum are kept, e
     const auto& v = scene.template group<Net>().template get<field::Velocity>();
     for (std::size_t i = 0; i < x.size(); ++i) {
       sums.momentum += v[i];
-      sums.spin += Vector<3>(x[i][1] * v[i][2] - x[i][2] * v[i][1], x[i][2] * v[i][0] - x[i][0] * v[i][2], x[i][0] * v[i][1] - x[i][1] * v[i][0]);
+      sums.spin +=
+          Vector<3>(x[i][1] * v[i][2] - x[i][2] * v[i][1], x[i][2] * v[i][0] - x[i][0] * v[i][2], x[i][0] * v[i][1] - x[i][1] * v[i][0]);
       sums.energy += 0.5 * v[i].squaredNorm();
     }
     scene.engine().for_each_item([&](auto& active) {

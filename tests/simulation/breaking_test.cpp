@@ -82,7 +82,8 @@ TEST_CASE("broken is broken: a bond that is brought back to its length stays wit
   REQUIRE(broken.size() == 1);
   CHECK(broken[0].rest_length == 1.0);
   CHECK(returns(scene<Leapfrog>(Box<1>::unbounded(), group<Post>("post", Frozen<1>{}, Points<1>{{Vector<1>(0.0)}}, 1.0),
-                                group<Bead>("bead", Mobile{}, Points<1>{{Vector<1>(1.0)}}, 1.0), substepped_bonds<Bead, Post>(law, {{0, 0}}, 3)))
+                                group<Bead>("bead", Mobile{}, Points<1>{{Vector<1>(1.0)}}, 1.0),
+                                substepped_bonds<Bead, Post>(law, {{0, 0}}, 3)))
             .size() == 1);
 }
 
@@ -96,9 +97,9 @@ TEST_CASE("a bar of springs between clamps bears k eps / n until its shortest sp
   for (std::uint32_t k = 0; k + 2 < springs; ++k) list.push_back({k, k + 1});
   const particles::Clamp<1> pull{.direction = {{{1.0}}}, .motion = {.speed = 1e-3, .start_up = 10.0}};
   const Breaking law{bond::KelvinVoigt{.stiffness = stiffness, .damping = 30.0}, LargestStrain{.strain = limit}};
-  auto bar = scene<Leapfrog>(Box<1>::unbounded(), group<Post>("post", Frozen<1>{}, Points<1>{{Vector<1>(0.0)}}, 1.0), group<Bead>("bar", Mobile{}, inner, 1.0),
-                             group<Grip>("grip", particles::Driven{pull}, end, 1.0), bonds<Bead, Bead>(law, list), bonds<Bead, Post>(law, to_post),
-                             bonds<Bead, Grip>(law, to_grip));
+  auto bar = scene<Leapfrog>(Box<1>::unbounded(), group<Post>("post", Frozen<1>{}, Points<1>{{Vector<1>(0.0)}}, 1.0),
+                             group<Bead>("bar", Mobile{}, inner, 1.0), group<Grip>("grip", particles::Driven{pull}, end, 1.0),
+                             bonds<Bead, Bead>(law, list), bonds<Bead, Post>(law, to_post), bonds<Bead, Grip>(law, to_grip));
   const double moved_at_break = springs * limit * short_one, until = 10.0 + (moved_at_break - 5e-3) / 1e-3;  // the start-up covers 5 mm
   double peak = 0.0;
   bar.every(0.1, [&](auto& now) {
@@ -149,7 +150,9 @@ auto body(const std::vector<Bond>& list, const Box<3>& box = Box<3>::unbounded()
   result.template group<Net>().template set<field::Velocity>([&](const auto&) { return random.vector(0.06); });
   return result;
 }
-std::vector<Vector<3>> places(const auto& scene) { return {scene.template group<Net>().positions().begin(), scene.template group<Net>().positions().end()}; }
+std::vector<Vector<3>> places(const auto& scene) {
+  return {scene.template group<Net>().positions().begin(), scene.template group<Net>().positions().end()};
+}
 
 }  // namespace
 
@@ -294,7 +297,8 @@ TEST_CASE("a restart leaves out the pairs that are still bonded and no others, w
   const std::filesystem::path path = std::filesystem::temp_directory_path() / "dmp_breaking_exclusions.checkpoint";
   const potential::LennardJones repulsion{.energy_scale = 1.0, .diameter = 0.5, .cutoff = 0.55};
   const auto two_pairs = [&](double first, double second) {  // each flies together at this speed; its bond breaks on the way
-    auto made = scene<Leapfrog>(Box<2>::unbounded(), group<Bead>("beads", Mobile{}, Points<2>{{{0.0, 0.0}, {2.0, 0.0}, {0.0, 50.0}, {2.0, 50.0}}}, 1.0),
+    auto made = scene<Leapfrog>(Box<2>::unbounded(),
+                                group<Bead>("beads", Mobile{}, Points<2>{{{0.0, 0.0}, {2.0, 0.0}, {0.0, 50.0}, {2.0, 50.0}}}, 1.0),
                                 bonds<Bead, Bead>(Breaking{Harmonic{.stiffness = 0.1}, LargestEnergy{.energy = 0.01}}, {{0, 1}, {2, 3}}),
                                 interaction<Bead, Bead>(repulsion).excluding_bonded(1));
     auto& v = made.template group<Bead>().template get<field::Velocity>();
@@ -344,7 +348,8 @@ TEST_CASE("a run goes on with its last step when the last bond has broken; bonds
   CHECK(broken_bonds<Post, Post>(posts).empty());
 }
 
-TEST_CASE("a bound of the step is named after the bonds that are left: stiffer ones that have broken no longer count, listed at either end") {
+TEST_CASE(
+    "a bound of the step is named after the bonds that are left: stiffer ones that have broken no longer count, listed at either end") {
   const Breaking brittle{Harmonic{.stiffness = 100.0}, LargestStrain{.strain = 0.05}};
   const Harmonic soft{.stiffness = 30.0};
   const auto check = [](auto scene, const std::string& both) {
@@ -355,9 +360,12 @@ TEST_CASE("a bound of the step is named after the bonds that are left: stiffer o
     CHECK(scene.step_limit().stability_bound_by == "bond stiffness of " + both + " (number 2 of 2)");
   };
   const auto beads = group<Bead>("beads", Mobile{}, Points<1>{{Vector<1>(1.0), Vector<1>(0.0)}}, 1.0);
-  check(scene<Leapfrog>(Box<1>::unbounded(), beads, bonds<Bead, Bead>(brittle, {{0, 1}}), bonds<Bead, Bead>(soft, {{0, 1}})), "beads - beads");
-  check(scene<Leapfrog>(Box<1>::unbounded(), beads, bonds<Bead, Bead>(brittle, {{1, 0}}), bonds<Bead, Bead>(soft, {{1, 0}})), "beads - beads");
-  check(scene<Leapfrog>(Box<1>::unbounded(), beads, group<Post>("post", Frozen<1>{}, Points<1>{{Vector<1>(-1.0)}}, 1.0), bonds<Post, Bead>(brittle, {{0, 0}, {0, 1, 1.0, 0.01}}), bonds<Post, Bead>(soft, {{0, 0}})),
+  check(scene<Leapfrog>(Box<1>::unbounded(), beads, bonds<Bead, Bead>(brittle, {{0, 1}}), bonds<Bead, Bead>(soft, {{0, 1}})),
+        "beads - beads");
+  check(scene<Leapfrog>(Box<1>::unbounded(), beads, bonds<Bead, Bead>(brittle, {{1, 0}}), bonds<Bead, Bead>(soft, {{1, 0}})),
+        "beads - beads");
+  check(scene<Leapfrog>(Box<1>::unbounded(), beads, group<Post>("post", Frozen<1>{}, Points<1>{{Vector<1>(-1.0)}}, 1.0),
+                        bonds<Post, Bead>(brittle, {{0, 0}, {0, 1, 1.0, 0.01}}), bonds<Post, Bead>(soft, {{0, 0}})),
         "post - beads");
 }
 
@@ -367,7 +375,8 @@ namespace {
 /// Two bonds under pressure hold a bead at right angles; as it flies off they come to pull along one line, and hold it twice as hard.
 auto turning(const auto& held, double drag) {
   return scene<Leapfrog>(Box<2>::unbounded(), group<Post>("posts", Frozen<2>{}, Points<2>{{{-5.0, 0.0}, {0.0, -5.0}}}, 1.0),
-                         group<Bead>("bead", Mobile{}, Points<2>{{{0.0, 0.0}}}, 1.0), held, forced_by<Bead>(forcing::Drag{.coefficient = drag}));
+                         group<Bead>("bead", Mobile{}, Points<2>{{{0.0, 0.0}}}, 1.0), held,
+                         forced_by<Bead>(forcing::Drag{.coefficient = drag}));
 }
 std::vector<Bond> pressed(double rest_length) { return {{0, 0, rest_length}, {0, 1, rest_length}}; }
 }  // namespace
@@ -388,11 +397,11 @@ TEST_CASE("a restart in mid-run takes the sub-steps that the run had") {
   const std::filesystem::path path = std::filesystem::temp_directory_path() / "dmp_substeps.checkpoint";
   for (const double time_step : {0.0, 0.5}) {
     const auto made = [] {
-      auto loose = scene<Leapfrog>(Box<1>::unbounded(), group<Post>("post", Frozen<1>{}, Points<1>{{Vector<1>(0.0), Vector<1>(2.0)}}, 1.0),
-                                   group<Bead>("bead", Mobile{}, Points<1>{{Vector<1>(1.0)}}, 1.0),
-                                   substepped_bonds<Bead, Post>(Breaking{Harmonic{.stiffness = 100.0}, LargestStrain{.strain = 0.05}}, {{0, 0}}),
-                                   substepped_bonds<Bead, Post>(Harmonic{.stiffness = 20.0}, {{0, 1}}),
-                                   bonds<Bead, Post>(Harmonic{.stiffness = 1.0}, {{0, 1}}));
+      auto loose = scene<Leapfrog>(
+          Box<1>::unbounded(), group<Post>("post", Frozen<1>{}, Points<1>{{Vector<1>(0.0), Vector<1>(2.0)}}, 1.0),
+          group<Bead>("bead", Mobile{}, Points<1>{{Vector<1>(1.0)}}, 1.0),
+          substepped_bonds<Bead, Post>(Breaking{Harmonic{.stiffness = 100.0}, LargestStrain{.strain = 0.05}}, {{0, 0}}),
+          substepped_bonds<Bead, Post>(Harmonic{.stiffness = 20.0}, {{0, 1}}), bonds<Bead, Post>(Harmonic{.stiffness = 1.0}, {{0, 1}}));
       loose.template group<Bead>().template get<field::Velocity>()[0][0] = 2.0;
       return loose;
     };
@@ -423,8 +432,9 @@ struct Cable {  // a force that does not depend on the length
 }  // namespace
 
 TEST_CASE("a tensioned cable without stiffness holds across, T/r: the step has a bound") {
-  const auto cable = scene<Leapfrog>(Box<2>::unbounded(), group<Post>("posts", Frozen<2>{}, Points<2>{{{-1.0, 0.0}, {1.0, 0.0}}}, 1.0),
-                                     group<Bead>("bead", Mobile{}, Points<2>{{{0.0, 0.0}}}, 1.0), bonds<Bead, Post>(Cable{50.0}, {{0, 0}, {0, 1}}));
+  const auto cable =
+      scene<Leapfrog>(Box<2>::unbounded(), group<Post>("posts", Frozen<2>{}, Points<2>{{{-1.0, 0.0}, {1.0, 0.0}}}, 1.0),
+                      group<Bead>("bead", Mobile{}, Points<2>{{{0.0, 0.0}}}, 1.0), bonds<Bead, Post>(Cable{50.0}, {{0, 0}, {0, 1}}));
   auto made = cable;
   CHECK(made.step_limit().stable_time_step == doctest::Approx(2.0 / std::sqrt(2.0 * 50.0)).epsilon(1e-12));
 }

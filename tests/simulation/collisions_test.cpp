@@ -42,7 +42,8 @@ auto wall_and_bead(const Attempt& attempt, const Potential& law = {.energy_scale
   for (int i = -4; i <= 4; ++i)
     for (int j = -4; j <= 4; ++j) wall.positions.push_back(attempt.spacing * Vector<3>(i, j, 0.0));
   const Vector<3> from(attempt.spacing * attempt.aim[0], attempt.spacing * attempt.aim[1], attempt.start);
-  auto result = scene<Integrator>(geometry::Box<3>{.lower = {-50.0, -50.0, -50.0}, .upper = {50.0, 50.0, 50.0}}, group<Target>("wall", Frozen<3>{}, wall, 1.0),
+  auto result = scene<Integrator>(geometry::Box<3>{.lower = {-50.0, -50.0, -50.0}, .upper = {50.0, 50.0, 50.0}},
+                                  group<Target>("wall", Frozen<3>{}, wall, 1.0),
                                   group<Shot>("bead", Mobile{}, geometry::Points<3>{{from}}, 1.0), interaction<Shot, Target>(law));
   result.template group<Shot>().template get<field::Velocity>()[0] = {0.0, 0.0, attempt.speed};
   return result;
@@ -59,7 +60,9 @@ const double phases[] = {-3.0, -3.0123, -3.0456, -3.0789, -3.1012, -3.1345};  //
 
 }  // namespace
 
-TEST_CASE("a bead shot at a bead of a thin wall, 1 to 10 000 times as fast as the wall's own motion would be, turns back with its energy, whatever the phase of its start") {
+TEST_CASE(
+    "a bead shot at a bead of a thin wall, 1 to 10 000 times as fast as the wall's own motion would be, turns back with its energy, "
+    "whatever the phase of its start") {
   for (const double speed : {3.0, 10.0, 100.0, 1e3, 1e4})
     for (const double start : phases) {
       CAPTURE(speed);
@@ -71,7 +74,9 @@ TEST_CASE("a bead shot at a bead of a thin wall, 1 to 10 000 times as fast as th
     }
 }
 
-TEST_CASE("a bead shot between four beads of a thin wall passes if its energy is above the barrier of the four, and only then; in either case it keeps its energy") {
+TEST_CASE(
+    "a bead shot between four beads of a thin wall passes if its energy is above the barrier of the four, and only then; in either case it "
+    "keeps its energy") {
   for (const double spacing : {1.0, 0.5, 0.25})
     for (const double start : phases) {
       CAPTURE(spacing);
@@ -104,13 +109,15 @@ TEST_CASE("a fast bead that meets a free one head-on hands over its velocity, m1
       CAPTURE(other);
       CAPTURE(speed);
       const potential::LennardJones law{.energy_scale = 1.0, .diameter = 1.0, .cutoff = cutoff};
-      auto pair = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(-3.0)}}, 1.0),
-                                  group<Target>("other", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, other), interaction<Shot, Target>(law));
+      auto pair =
+          scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(-3.0)}}, 1.0),
+                          group<Target>("other", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, other), interaction<Shot, Target>(law));
       pair.group<Shot>().get<field::Velocity>()[0] = Vector<1>(speed);
       pair.run({.until = 6.0 / speed});
       const double allowed = other < 1.0 ? 0.01 : 2e-3;  // where the other one flies off faster, the step shrinks in mid-collision
       CHECK(pair.group<Target>().get<field::Velocity>()[0][0] == doctest::Approx(2.0 * speed / (1.0 + other)).epsilon(allowed));
-      CHECK(pair.group<Shot>().get<field::Velocity>()[0][0] == doctest::Approx(speed * (1.0 - other) / (1.0 + other)).epsilon(allowed).scale(speed));
+      CHECK(pair.group<Shot>().get<field::Velocity>()[0][0] ==
+            doctest::Approx(speed * (1.0 - other) / (1.0 + other)).epsilon(allowed).scale(speed));
     }
 }
 
@@ -162,11 +169,14 @@ TEST_CASE("a potential of finite height turns back what has less energy than tha
   for (const double start : phases) {
     CAPTURE(start);
     for (const double speed : {3.0, 9.7}) CHECK(after({.speed = speed, .start = start}, hill)[2] == doctest::Approx(-1.0).epsilon(0.03));
-    for (const double speed : {10.3, 30.0, 1e4}) CHECK(after({.speed = speed, .start = start}, hill)[2] == doctest::Approx(1.0).epsilon(speed < 20.0 ? 0.03 : 3e-3));
+    for (const double speed : {10.3, 30.0, 1e4})
+      CHECK(after({.speed = speed, .start = start}, hill)[2] == doctest::Approx(1.0).epsilon(speed < 20.0 ? 0.03 : 3e-3));
   }
 }
 
-TEST_CASE("a given step longer than a collision is not refused; the bounds before the run, and the report after it, say that it resolves none: the bead is through") {
+TEST_CASE(
+    "a given step longer than a collision is not refused; the bounds before the run, and the report after it, say that it resolves none: "
+    "the bead is through") {
   auto scene = wall_and_bead({.speed = 1e3});
   const auto limit = scene.step_limit();
   CHECK(limit.bound_by == "collisions of a pair potential");
@@ -176,7 +186,8 @@ TEST_CASE("a given step longer than a collision is not refused; the bounds befor
   const auto report = scene.run({.until = 0.04, .time_step = 0.02});
   CHECK(scene.group<Shot>().positions()[0][2] == doctest::Approx(37.0));
   CHECK(report.limit.time_step == limit.time_step);
-  CHECK(report.step_bound_by == "given, 74 % of the bound of pair potential, " + to_text(std::round(100.0 * 0.02 / limit.time_step)) + " % of what resolves collisions of a pair potential");
+  CHECK(report.step_bound_by == "given, 74 % of the bound of pair potential, " + to_text(std::round(100.0 * 0.02 / limit.time_step)) +
+                                    " % of what resolves collisions of a pair potential");
 }
 
 TEST_CASE("beads at rest, beads of no energy, and walls that move towards each other: no bound is made of collisions that there are not") {
@@ -184,9 +195,10 @@ TEST_CASE("beads at rest, beads of no energy, and walls that move towards each o
   CHECK(rest.step_limit().bound_by == "pair potential");
   auto nothing = wall_and_bead({.speed = 1e3}, potential::LennardJones{.energy_scale = 0.0, .diameter = 1.0, .cutoff = cutoff});
   CHECK(nothing.step_limit().bound_by == "nothing");
-  auto walls = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("one", Stationary{}, geometry::Points<1>{{Vector<1>(-3.0)}}, 1.0),
-                               group<Target>("other", Frozen<1>{.wall_velocity = Vector<1>(1.0)}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0),
-                               interaction<Shot, Target>(potential::LennardJones{.energy_scale = 1.0, .diameter = 1.0, .cutoff = cutoff}));
+  auto walls =
+      scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("one", Stationary{}, geometry::Points<1>{{Vector<1>(-3.0)}}, 1.0),
+                      group<Target>("other", Frozen<1>{.wall_velocity = Vector<1>(1.0)}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0),
+                      interaction<Shot, Target>(potential::LennardJones{.energy_scale = 1.0, .diameter = 1.0, .cutoff = cutoff}));
   CHECK(walls.step_limit().bound_by == "nothing");
 }
 
@@ -195,13 +207,16 @@ TEST_CASE("a particle of a liquid, however fast, moves at most a quarter of its 
   for (const double speed : {1.0, 1e3, 1e6}) {
     auto sea = scene<ExtrapolatedVerlet>(
         geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {8.0, 8.0}, .periodic = {true, true}},
-        group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 1.0}, {.lower = {0.0, 0.0}, .upper = {8.0, 8.0}}), 1.0),
-        interaction<Water, Water>(Flow{.kernel = {.support_radius = support}}), material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0}, rheology::Constant{.dynamic_viscosity = 0.0}));
+        group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 1.0}, {.lower = {0.0, 0.0}, .upper = {8.0, 8.0}}),
+                     1.0),
+        interaction<Water, Water>(Flow{.kernel = {.support_radius = support}}),
+        material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0}, rheology::Constant{.dynamic_viscosity = 0.0}));
     sea.group<Water>().get<field::Velocity>()[9] = {speed, 0.0};
     const auto limit = sea.step_limit();
     CHECK(limit.stable_time_step * speed < 0.25 * support);
     CHECK(limit.stable_time_step * (speed + 1.0) == doctest::Approx(0.25 * support).epsilon(1e-9));
-    CHECK_THROWS_WITH_AS(sea.run({.until = 1.0, .time_step = 0.25 * support / speed}), doctest::Contains("the bound of sound, got "), ParameterError);
+    CHECK_THROWS_WITH_AS(sea.run({.until = 1.0, .time_step = 0.25 * support / speed}), doctest::Contains("the bound of sound, got "),
+                         ParameterError);
   }
 }
 
@@ -213,10 +228,11 @@ TEST_CASE("a bead that is pulled from rest onto a bead of a wall bounces there a
       geometry::Points<3> wall;
       for (int i = -4; i <= 4; ++i)
         for (int j = -4; j <= 4; ++j) wall.positions.emplace_back(i, j, 0.0);
-      auto scene = simulation::scene<Leapfrog>(geometry::Box<3>{.lower = {-50.0, -50.0, -50.0}, .upper = {50.0, 50.0, 50.0}}, group<Target>("wall", Frozen<3>{}, wall, 1.0),
-                                         group<Shot>("bead", Mobile{}, geometry::Points<3>{{Vector<3>(0.0, 0.0, start)}}, 1.0),
-                                         interaction<Shot, Target>(potential::LennardJones{.energy_scale = 1.0, .diameter = 1.0, .cutoff = cutoff}),
-                                         forced_by<Shot>(forcing::Constant<3>{.uniform_acceleration = {{0.0, 0.0, pull}}}));
+      auto scene = simulation::scene<Leapfrog>(
+          geometry::Box<3>{.lower = {-50.0, -50.0, -50.0}, .upper = {50.0, 50.0, 50.0}}, group<Target>("wall", Frozen<3>{}, wall, 1.0),
+          group<Shot>("bead", Mobile{}, geometry::Points<3>{{Vector<3>(0.0, 0.0, start)}}, 1.0),
+          interaction<Shot, Target>(potential::LennardJones{.energy_scale = 1.0, .diameter = 1.0, .cutoff = cutoff}),
+          forced_by<Shot>(forcing::Constant<3>{.uniform_acceleration = {{0.0, 0.0, pull}}}));
       scene.run({.until = 4.0 * std::sqrt(2.0 * (-start - 1.0) / pull)});  // two bounces, and about as high as at the start
       const Vector<3> x = scene.group<Shot>().positions()[0], v = scene.group<Shot>().get<field::Velocity>()[0];
       double energy = 0.5 * v.squaredNorm() - pull * x[2];
@@ -233,16 +249,18 @@ TEST_CASE("a run that is followed by another one, in which a bead is much faster
   CHECK(scene.group<Shot>().get<field::Velocity>()[0][2] == doctest::Approx(-1e3).epsilon(2e-3));
 }
 
-TEST_CASE("two beads with an attractive well meet head-on and hand over their velocities, slower and faster than what the well gives them") {
+TEST_CASE(
+    "two beads with an attractive well meet head-on and hand over their velocities, slower and faster than what the well gives them") {
   for (const double range : {2.5, 4.0})
     for (const double speed : {0.3, 0.5, 1.0, 2.0, 5.0, 50.0, 1500.0})  // the well gives 2 m/s
       for (const double start : phases) {
         CAPTURE(range);
         CAPTURE(speed);
         CAPTURE(start);
-        auto pair = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(start - 2.0)}}, 1.0),
-                                    group<Target>("other", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0),
-                                    interaction<Shot, Target>(potential::LennardJones{.energy_scale = 1.0, .diameter = 1.0, .cutoff = range}));
+        auto pair = scene<Leapfrog>(
+            geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(start - 2.0)}}, 1.0),
+            group<Target>("other", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0),
+            interaction<Shot, Target>(potential::LennardJones{.energy_scale = 1.0, .diameter = 1.0, .cutoff = range}));
         pair.group<Shot>().get<field::Velocity>()[0] = Vector<1>(speed);
         pair.run({.until = 14.0 / speed});
         const double v = pair.group<Shot>().get<field::Velocity>()[0][0], w = pair.group<Target>().get<field::Velocity>()[0][0];
@@ -257,8 +275,9 @@ TEST_CASE("two beads that are bound in their well keep their energy over many en
   for (const double apart : {1.0, 1.2, 1.5, 2.0}) {
     CAPTURE(apart);
     const potential::LennardJones law{.energy_scale = 1.0, .diameter = 1.0, .cutoff = 4.0};
-    auto pair = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(-apart)}}, 1.0),
-                                group<Target>("other", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0), interaction<Shot, Target>(law));
+    auto pair =
+        scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(-apart)}}, 1.0),
+                        group<Target>("other", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0), interaction<Shot, Target>(law));
     const double start = law.energy(apart * apart);
     std::vector<double> error;
     for (int n = 1; n <= 400; ++n) {
@@ -268,8 +287,10 @@ TEST_CASE("two beads that are bound in their well keep their energy over many en
       CHECK(std::fabs(v + w) < 1e-12);
       error.push_back(0.5 * (v * v + w * w) + law.energy(r * r) - start);
     }
-    const double most = std::fabs(*std::max_element(error.begin(), error.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
-    const double drift = (std::accumulate(error.end() - 100, error.end(), 0.0) - std::accumulate(error.begin(), error.begin() + 100, 0.0)) / 100.0;
+    const double most =
+        std::fabs(*std::max_element(error.begin(), error.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
+    const double drift =
+        (std::accumulate(error.end() - 100, error.end(), 0.0) - std::accumulate(error.begin(), error.begin() + 100, 0.0)) / 100.0;
     CHECK(most < square(0.9 * 2.0 / std::sqrt(6.0)) / 8.0);  // what leapfrog's energy oscillates by, (omega dt)^2/8
     CHECK(std::fabs(drift) < 0.01);
   }
@@ -285,14 +306,17 @@ struct Caged {
   T force_factor(const T& squared) const {
     const T r = sqrt(squared), y = (r - 1.0) * (1.0 / half_width), rest = max(1.0 - y * y, 0.0);
     const T s6 = cube(core * core / squared);
-    return select(squared < core_range(), 24.0 / squared * s6 * (2.0 * s6 - 1.0), 0.0) + (6.0 * barrier / half_width) * y * square(rest) / r;
+    return select(squared < core_range(), 24.0 / squared * s6 * (2.0 * s6 - 1.0), 0.0) +
+           (6.0 * barrier / half_width) * y * square(rest) / r;
   }
   template <class T>
   T energy(const T& squared) const {
     const T y = (sqrt(squared) - 1.0) * (1.0 / half_width), rest = max(1.0 - y * y, 0.0), s6 = cube(core * core / squared);
     return select(squared < core_range(), 4.0 * s6 * (s6 - 1.0) + 1.0, 0.0) + barrier * cube(rest);
   }
-  double largest_stiffness() const { return std::max(456.0 / (core * core), 6.0 * barrier / (half_width * half_width)); }  // at r = s; of the hill
+  double largest_stiffness() const {  // at r = s; of the hill
+    return std::max(456.0 / (core * core), 6.0 * barrier / (half_width * half_width));
+  }
 
  private:
   double core_range() const { return core * core * std::cbrt(2.0); }
@@ -301,12 +325,15 @@ void validate(const Caged&) {}
 
 }  // namespace
 
-TEST_CASE("a bead between a hard core and a hill, two places where a force ends, bounces to and fro and keeps its energy at any speed below the hill") {
+TEST_CASE(
+    "a bead between a hard core and a hill, two places where a force ends, bounces to and fro and keeps its energy at any speed below the "
+    "hill") {
   const Caged law;
   for (const double speed : {1.0, 4.0, 9.0, 9.9}) {
     CAPTURE(speed);
-    auto cage = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(-0.6)}}, 1.0),
-                                group<Target>("core", Frozen<1>{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0), interaction<Shot, Target>(law));
+    auto cage =
+        scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Shot>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(-0.6)}}, 1.0),
+                        group<Target>("core", Frozen<1>{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0), interaction<Shot, Target>(law));
     cage.group<Shot>().get<field::Velocity>()[0] = Vector<1>(speed);
     for (int n = 1; n <= 20; ++n) {
       cage.run({.until = 0.5 * n / speed});

@@ -426,8 +426,9 @@ TEST_CASE("contact planes refuse what they cannot do, and name it") {
     return scene<Leapfrog>(box, group<Beads>("beads", Mobile{}, Points<2>{{Vector<2>(0.0, 0.5), Vector<2>(0.5, 0.1)}}, mass), planes);
   };
   auto behind = on(Box<2>::unbounded(), confined_by<Beads>(floor_plane));
-  CHECK(complaint([&] { behind.run({.until = 1.0, .time_step = 0.1}); }) ==
-        "scene: group beads, particle 1: normal . position must be >= that of a contact plane, 0.2 m, got 0.1 (relax puts it on the plane)");
+  CHECK(
+      complaint([&] { behind.run({.until = 1.0, .time_step = 0.1}); }) ==
+      "scene: group beads, particle 1: normal . position must be >= that of a contact plane, 0.2 m, got 0.1 (relax puts it on the plane)");
   behind.group<Beads>().positions()[1][1] = 0.2;
   CHECK(complaint([&] { behind.run({.until = 1.0, .time_step = 0.1}); }) == "nothing");
   CHECK(complaint([&] { (void)load_on<Beads>(behind, ContactPlane<2>{.normal = {{0.0, -1.0}}, .position = 0.2}); }) ==

@@ -19,10 +19,12 @@ struct Beads {};
 /// Momentum that a liquid in a periodic square has come to in `steps` steps, over the sum of |m v| at the start; it starts from none.
 double momentum_gained(std::uint64_t steps) {
   constexpr double side = 8.0;
-  auto sea = scene<ExtrapolatedVerlet>(geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {side, side}, .periodic = {true, true}},
-                                       group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 1.0}, {.lower = {0.0, 0.0}, .upper = {side, side}}), 1.0),
-                                       interaction<Water, Water>(sph::WeaklyCompressible<kernel::WendlandC2<2>>{.kernel = {.support_radius = 2.6}}),
-                                       material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}));
+  auto sea = scene<ExtrapolatedVerlet>(
+      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {side, side}, .periodic = {true, true}},
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 1.0}, {.lower = {0.0, 0.0}, .upper = {side, side}}),
+                   1.0),
+      interaction<Water, Water>(sph::WeaklyCompressible<kernel::WendlandC2<2>>{.kernel = {.support_radius = 2.6}}),
+      material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}));
   auto& water = sea.group<Water>();
   RandomVectors random;
   water.set<field::Velocity>([&](const auto&) { return Vector<2>(random.vector(1.0).head<2>()); });
@@ -76,7 +78,8 @@ Drift colliding(std::uint64_t steps, double step) {
   constexpr double side = 4.0;
   const potential::LennardJones law{.energy_scale = 1.0, .diameter = 1.0, .cutoff = 1.1224620483093730};  // 2^(1/6): where the force is 0
   const geometry::Box<3> box{.lower = {0.0, 0.0, 0.0}, .upper = {side, side, side}, .periodic = {true, true, true}};
-  const auto lattice = geometry::fill(geometry::FaceCentredCubic{.lattice_constant = 2.0}, {.lower = {0.0, 0.0, 0.0}, .upper = {side, side, side}});
+  const auto lattice =
+      geometry::fill(geometry::FaceCentredCubic{.lattice_constant = 2.0}, {.lower = {0.0, 0.0, 0.0}, .upper = {side, side, side}});
   auto gas = scene<Leapfrog>(box, group<Beads>("beads", Mobile{}, geometry::Points<3>{.positions = lattice.positions}, 1.0),
                              interaction<Beads, Beads>(law));
   RandomVectors random;
@@ -97,9 +100,11 @@ Drift colliding(std::uint64_t steps, double step) {
 Drift tumbling(std::uint64_t steps, double step) {
   const auto body = lattice_spring::lattice_block(lattice_spring::CubicLattice{.spacing = 1.0}, {2, 2, 2});
   const bond::Harmonic law{.stiffness = 100.0};
-  auto block = scene<Leapfrog>(geometry::Box<3>::unbounded(), group<Beads>("beads", Mobile{}, body.points, 1.0), bonds<Beads, Beads>(law, body.bonds));
+  auto block = scene<Leapfrog>(geometry::Box<3>::unbounded(), group<Beads>("beads", Mobile{}, body.points, 1.0),
+                               bonds<Beads, Beads>(law, body.bonds));
   RandomVectors random;
-  block.group<Beads>().set<field::Velocity>([&](const Vector<3>& x) { return Vector<3>(random.vector(0.5) + Vector<3>(-x[1], x[0], 0.0)); });
+  block.group<Beads>().set<field::Velocity>(
+      [&](const Vector<3>& x) { return Vector<3>(random.vector(0.5) + Vector<3>(-x[1], x[0], 0.0)); });
   return drift_of(block, steps, step, [&] {
     const auto& x = block.group<Beads>().positions();
     double sum = 0.0;

@@ -24,11 +24,14 @@ template <class Pressure>
 auto row_of_gas(double first, double last, double half_box, int particles, double support, const Pressure& pressure) {
   const double spacing = (last - first) / particles;
   const eos::IdealGas gas{};
-  auto row = scene<ExtrapolatedVerlet>(
-      geometry::Box<1>{.lower = {-half_box}, .upper = {half_box}, .periodic = {true}},
-      group<Gas>("gas", Mobile{}, geometry::fill(geometry::Cubic<1>{.spacing = spacing, .origin = Vector<1>(first)}, {.lower = Vector<1>(first), .upper = Vector<1>(last)}), spacing),
-      interaction<Gas, Gas>(sph::Compressible<kernel::WendlandC2<1>, viscosity::ShockCapturing>{.kernel = {.support_radius = support * spacing}, .viscosity = {.alpha = 1.0, .beta = 1.0}}),
-      material<Gas>(gas));
+  auto row = scene<ExtrapolatedVerlet>(geometry::Box<1>{.lower = {-half_box}, .upper = {half_box}, .periodic = {true}},
+                                       group<Gas>("gas", Mobile{},
+                                                  geometry::fill(geometry::Cubic<1>{.spacing = spacing, .origin = Vector<1>(first)},
+                                                                 {.lower = Vector<1>(first), .upper = Vector<1>(last)}),
+                                                  spacing),
+                                       interaction<Gas, Gas>(sph::Compressible<kernel::WendlandC2<1>, viscosity::ShockCapturing>{
+                                           .kernel = {.support_radius = support * spacing}, .viscosity = {.alpha = 1.0, .beta = 1.0}}),
+                                       material<Gas>(gas));
   auto& g = row.template group<Gas>();
   g.template set<field::Density>([](const auto&) { return 1.0; });
   g.template set<field::SpecificEnergy>([&](const Vector<1>& x) { return gas.specific_energy(pressure(x[0]), 1.0); });
@@ -37,14 +40,17 @@ auto row_of_gas(double first, double last, double half_box, int particles, doubl
 /// Kinetic and internal energy [J].
 double energy_of(const auto& g) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < g.size(); ++i) sum += g.mass * (0.5 * g.template get<field::Velocity>()[i].squaredNorm() + g.template get<field::SpecificEnergy>()[i]);
+  for (std::size_t i = 0; i < g.size(); ++i)
+    sum += g.mass * (0.5 * g.template get<field::Velocity>()[i].squaredNorm() + g.template get<field::SpecificEnergy>()[i]);
   return sum;
 }
 constexpr double gamma_ = 1.4;  // of eos::IdealGas
 
 }  // namespace
 
-TEST_CASE("pressure ratio 1e5: a shock tube of ideal gas whose jump is one spacing wide has the exact velocity behind the shock, to 3 %, and the shock where it should be; energy is kept") {
+TEST_CASE(
+    "pressure ratio 1e5: a shock tube of ideal gas whose jump is one spacing wide has the exact velocity behind the shock, to 3 %, and the "
+    "shock where it should be; energy is kept") {
   constexpr double high = 1.0, low = 1e-5, end = 0.1, spacing = 1.0 / 800.0;
   double least = low, most = high, velocity = 0.0;
   for (int k = 0; k < 100; ++k) {  // the pressure where fan and shock leave the same velocity
@@ -55,7 +61,8 @@ TEST_CASE("pressure ratio 1e5: a shock tube of ideal gas whose jump is one spaci
   }
   const double shock_speed = least / velocity;  // of a density of 1: p* - low = rho s u*, and low is nothing
   const auto tube_of = [](double width) {
-    return row_of_gas(-1.0, 1.0, 1.0, 1600, 3.0, [width](double x) { return low + (high - low) / (1.0 + std::exp((std::fabs(x) - 0.5) / width)); });
+    return row_of_gas(-1.0, 1.0, 1.0, 1600, 3.0,
+                      [width](double x) { return low + (high - low) / (1.0 + std::exp((std::fabs(x) - 0.5) / width)); });
   };
   auto tube = tube_of(spacing);
   const double before = energy_of(tube.group<Gas>());
@@ -68,7 +75,8 @@ TEST_CASE("pressure ratio 1e5: a shock tube of ideal gas whose jump is one spaci
     if (x > 0.5 + 0.4 * velocity * end && x < 0.5 + 0.9 * velocity * end) behind += u, ++count;
     if (u > 0.5 * velocity) farthest = std::max(farthest, x);
   }
-  MESSAGE("velocity behind the shock ", behind / count / velocity, ", shock ", (farthest - 0.5) / (shock_speed * end), ", energy ", energy_of(g) / before - 1.0);
+  MESSAGE("velocity behind the shock ", behind / count / velocity, ", shock ", (farthest - 0.5) / (shock_speed * end), ", energy ",
+          energy_of(g) / before - 1.0);
   CHECK(count > 10);
   CHECK(behind / count == doctest::Approx(velocity).epsilon(0.03));
   CHECK(farthest - 0.5 == doctest::Approx(shock_speed * end).epsilon(0.03).scale(0.0));
@@ -94,7 +102,8 @@ TEST_CASE("near vacuum: gas let go into empty space expands as the exact fan, it
     error += std::fabs(u - 2.0 / (gamma_ + 1.0) * (c + speed));
     ++count;
   }
-  MESSAGE("mean error of the velocity over c ", error / count / c, ", fastest over 2c/(gamma - 1) ", fastest / (2.0 * c / (gamma_ - 1.0)), ", thinnest ", thinnest, ", energy ", energy_of(g) / before - 1.0);
+  MESSAGE("mean error of the velocity over c ", error / count / c, ", fastest over 2c/(gamma - 1) ", fastest / (2.0 * c / (gamma_ - 1.0)),
+          ", thinnest ", thinnest, ", energy ", energy_of(g) / before - 1.0);
   CHECK(count > 50);
   CHECK(error / count < 0.03 * c);
   CHECK(fastest < 2.0 * c / (gamma_ - 1.0));
@@ -125,14 +134,18 @@ auto water(Sea sea) {
   const double density = mass / (length * length), speed = length / time;
   auto result = scene<ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {0.0, 0.0}, .upper = sea.size * length, .periodic = {true, true}},
-      group<Water>("water", Mobile{}, sea.points, mass), interaction<Water, Water>(Flow{.kernel = {.support_radius = sea.support * length}}),
-      material<Water>(eos::Tait{.rest_density = density, .sound_speed_0 = speed}, rheology::Constant{.dynamic_viscosity = 0.05 * density * length * speed}),
-      forced_by<Water>(forcing::Constant<2>{.uniform_acceleration = {{sea.gravity[0] * length / (time * time), sea.gravity[1] * length / (time * time)}}}));
+      group<Water>("water", Mobile{}, sea.points, mass),
+      interaction<Water, Water>(Flow{.kernel = {.support_radius = sea.support * length}}),
+      material<Water>(eos::Tait{.rest_density = density, .sound_speed_0 = speed},
+                      rheology::Constant{.dynamic_viscosity = 0.05 * density * length * speed}),
+      forced_by<Water>(forcing::Constant<2>{
+          .uniform_acceleration = {{sea.gravity[0] * length / (time * time), sea.gravity[1] * length / (time * time)}}}));
   return result;
 }
 void stir(auto& scene, double speed) {
   RandomVectors random;
-  scene.template group<Water>().template set<field::Velocity>([&](const auto&) { return Vector<2>(random.vector(speed).template head<2>()); });
+  scene.template group<Water>().template set<field::Velocity>(
+      [&](const auto&) { return Vector<2>(random.vector(speed).template head<2>()); });
 }
 /// Positions and velocities after 200 steps of 0.2, in the units of the sea.
 std::vector<double> after_a_while(const Sea& sea, double speed = 0.05) {
@@ -176,19 +189,23 @@ TEST_CASE("zero gravity is no gravity, to the bit; denormal velocities move noth
 
 TEST_CASE("supports with 3 neighbours, 4 and 300: the flow keeps its momentum, loses energy, and a lattice at rest stays at rest") {
   const double width = std::sqrt(3.0);
-  Sea honeycomb{.points = {.positions = {}, .spacing = 1.0}, .support = 1.05, .size = {8.0 * width, 15.0}};  // three neighbours at a distance of 1
+  Sea honeycomb{
+      .points = {.positions = {}, .spacing = 1.0}, .support = 1.05, .size = {8.0 * width, 15.0}};  // three neighbours at a distance of 1
   for (int row = 0; row < 5; ++row)
     for (int column = 0; column < 8; ++column)
-      for (const Vector<2>& at : {Vector<2>(0.25 * width, 0.25), Vector<2>(0.25 * width, 1.25), Vector<2>(0.75 * width, 1.75), Vector<2>(0.75 * width, 2.75)})
+      for (const Vector<2>& at :
+           {Vector<2>(0.25 * width, 0.25), Vector<2>(0.25 * width, 1.25), Vector<2>(0.75 * width, 1.75), Vector<2>(0.75 * width, 2.75)})
         honeycomb.points.positions.push_back(Vector<2>(column * width, 3.0 * row) + at);
   const auto square = geometry::fill(geometry::Cubic<2>{.spacing = 1.0}, {.lower = {0.0, 0.0}, .upper = {24.0, 24.0}});
-  for (const auto& dense : {std::pair{honeycomb, 3}, std::pair{Sea{.points = square, .support = 1.05, .size = {24.0, 24.0}}, 4}, std::pair{Sea{.points = square, .support = 9.86, .size = {24.0, 24.0}}, 300}}) {
+  for (const auto& dense : {std::pair{honeycomb, 3}, std::pair{Sea{.points = square, .support = 1.05, .size = {24.0, 24.0}}, 4},
+                            std::pair{Sea{.points = square, .support = 9.86, .size = {24.0, 24.0}}, 300}}) {
     const Sea& sea = dense.first;
     const int neighbours = dense.second;
     CAPTURE(neighbours);
     int found = 0;
     const geometry::Box<2> box{.lower = {0.0, 0.0}, .upper = sea.size, .periodic = {true, true}};
-    for (const auto& x : sea.points.positions) found += dmp::neighbours::minimum_image<2>(x - sea.points.positions[0], box).norm() < sea.support ? 1 : 0;
+    for (const auto& x : sea.points.positions)
+      found += dmp::neighbours::minimum_image<2>(x - sea.points.positions[0], box).norm() < sea.support ? 1 : 0;
     CHECK(found - 1 == neighbours);
     auto scene = water(sea);
     scene.run({.until = 10.0});
@@ -250,12 +267,13 @@ namespace {
 auto two_liquids(double pressure) {
   const geometry::Cubic<2> lattice{.spacing = 1.0};
   const sph::WeaklyCompressible<kernel::WendlandC2<2>> law{.kernel = {.support_radius = 2.6}};
-  auto result = scene<ExtrapolatedVerlet>(geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {12.0, 24.0}, .periodic = {true, true}},
-                                          group<Water>("heavy", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {12.0, 12.0}}), 1000.0),
-                                          group<Solid>("light", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 12.0}, .upper = {12.0, 24.0}}), 1.0),
-                                          interaction<Water, Water>(law), interaction<Water, Solid>(law), interaction<Solid, Solid>(law),
-                                          material<Water>(eos::Linear{.rest_density = 1000.0, .sound_speed_0 = 1.0, .background_pressure = pressure}),
-                                          material<Solid>(eos::Linear{.rest_density = 1.0, .sound_speed_0 = 1.0, .background_pressure = pressure}));
+  auto result = scene<ExtrapolatedVerlet>(
+      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {12.0, 24.0}, .periodic = {true, true}},
+      group<Water>("heavy", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {12.0, 12.0}}), 1000.0),
+      group<Solid>("light", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 12.0}, .upper = {12.0, 24.0}}), 1.0),
+      interaction<Water, Water>(law), interaction<Water, Solid>(law), interaction<Solid, Solid>(law),
+      material<Water>(eos::Linear{.rest_density = 1000.0, .sound_speed_0 = 1.0, .background_pressure = pressure}),
+      material<Solid>(eos::Linear{.rest_density = 1.0, .sound_speed_0 = 1.0, .background_pressure = pressure}));
   return result;
 }
 double largest_speed(const auto& scene) {
@@ -268,7 +286,9 @@ double largest_speed(const auto& scene) {
 
 }  // namespace
 
-TEST_CASE("density ratio 1000: two liquids at rest stay at rest while the pressure is that of rest; with another one their faces are pushed apart") {
+TEST_CASE(
+    "density ratio 1000: two liquids at rest stay at rest while the pressure is that of rest; with another one their faces are pushed "
+    "apart") {
   auto rest = two_liquids(0.0);
   rest.run({.until = 50.0});
   CHECK(largest_speed(rest) == 0.0);
@@ -292,8 +312,10 @@ struct Beads {};
 struct Others {};
 
 auto gas_of_beads(std::vector<Vector<2>> positions, bool periodic) {
-  return scene<Leapfrog>(geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {8.0, 8.0}, .periodic = {periodic, periodic}}, group<Beads>("beads", Mobile{}, geometry::Points<2>{.positions = std::move(positions)}, 1.0),
-                         interaction<Beads, Beads>(potential::LennardJones{.energy_scale = 1.0, .diameter = 1.0, .cutoff = 1.1224620483093730}));
+  return scene<Leapfrog>(
+      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {8.0, 8.0}, .periodic = {periodic, periodic}},
+      group<Beads>("beads", Mobile{}, geometry::Points<2>{.positions = std::move(positions)}, 1.0),
+      interaction<Beads, Beads>(potential::LennardJones{.energy_scale = 1.0, .diameter = 1.0, .cutoff = 1.1224620483093730}));
 }
 template <class Scene>
 SimulationError::Where where_it_stops(Scene& scene, const RunOptions& options) {
@@ -327,7 +349,8 @@ TEST_CASE("beads that come to coincide in a run stop it, with bead and field; pa
   CHECK_NOTHROW(sea.run({.until = 20.0, .time_step = 0.1}));
 }
 
-TEST_CASE("very fast: a bead that crosses the periodic box twice in a step comes out where it should; out of a bounded box it stops the run") {
+TEST_CASE(
+    "very fast: a bead that crosses the periodic box twice in a step comes out where it should; out of a bounded box it stops the run") {
   auto beads = gas_of_beads({{2.0, 2.0}, {5.0, 5.0}}, true);
   beads.group<Beads>().get<field::Velocity>()[0] = {1703.0, 0.0};
   beads.run({.until = 1.0, .time_step = 0.01});
@@ -347,7 +370,8 @@ namespace {
 
 auto two_beads(double mass, double other_mass, const bond::KelvinVoigt& law) {
   return scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Beads>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, mass),
-                         group<Others>("other", Mobile{}, geometry::Points<1>{{Vector<1>(1.0)}}, other_mass), bonds<Beads, Others>(law, {{0, 0}}));
+                         group<Others>("other", Mobile{}, geometry::Points<1>{{Vector<1>(1.0)}}, other_mass),
+                         bonds<Beads, Others>(law, {{0, 0}}));
 }
 
 }  // namespace
@@ -374,7 +398,8 @@ TEST_CASE("sub-stepped bonds resonate: of the steps that slow springs allow, a s
     const double step = first + range * trial / trials;
     auto pair = scene<Leapfrog>(geometry::Box<1>::unbounded(), group<Beads>("bead", Mobile{}, geometry::Points<1>{{Vector<1>(0.0)}}, 1.0),
                                 group<Others>("other", Mobile{}, geometry::Points<1>{{Vector<1>(1.0)}}, 1.0),
-                                substepped_bonds<Beads, Others>(bond::Harmonic{.stiffness = 0.5 * fast * fast}, {{0, 0}}, 40), bonds<Beads, Others>(bond::Harmonic{.stiffness = 0.5}, {{0, 0}}));
+                                substepped_bonds<Beads, Others>(bond::Harmonic{.stiffness = 0.5 * fast * fast}, {{0, 0}}, 40),
+                                bonds<Beads, Others>(bond::Harmonic{.stiffness = 0.5}, {{0, 0}}));
     pair.group<Beads>().get<field::Velocity>()[0] = Vector<1>(1e-6);
     pair.run({.until = 1000.0 * step, .time_step = step});
     if (!(std::fabs(pair.group<Beads>().get<field::Velocity>()[0][0]) < 1e-3)) ++unstable;
@@ -390,10 +415,14 @@ TEST_CASE("huge and tiny units: beads on bonds that bounce off each other, with 
     std::vector<Vector<1>> positions, speeds;
     for (const double x : {0.0, 1.0, 2.0, 4.0, 5.0, 6.0}) positions.push_back(Vector<1>(x * unit.length));
     for (const double v : {0.0, 0.2, 0.1, -2.0, -1.9, -2.1}) speeds.push_back(Vector<1>(v * unit.length / unit.time));
-    auto pieces = scene<Leapfrog>(geometry::Box<1>{.lower = {-50.0 * unit.length}, .upper = {50.0 * unit.length}},
-                                  group<Beads>("beads", Mobile{}, geometry::Points<1>{.positions = positions}, unit.mass),
-                                  bonds<Beads, Beads>(bond::KelvinVoigt{.stiffness = 30.0 * stiffness, .damping = 0.1 * stiffness * unit.time}, {{0, 1}, {1, 2}, {3, 4}, {4, 5}}),
-                                  interaction<Beads, Beads>(potential::LennardJones{.energy_scale = energy, .diameter = 0.8 * unit.length, .cutoff = 0.89 * unit.length}).excluding_bonded(1));
+    auto pieces =
+        scene<Leapfrog>(geometry::Box<1>{.lower = {-50.0 * unit.length}, .upper = {50.0 * unit.length}},
+                        group<Beads>("beads", Mobile{}, geometry::Points<1>{.positions = positions}, unit.mass),
+                        bonds<Beads, Beads>(bond::KelvinVoigt{.stiffness = 30.0 * stiffness, .damping = 0.1 * stiffness * unit.time},
+                                            {{0, 1}, {1, 2}, {3, 4}, {4, 5}}),
+                        interaction<Beads, Beads>(
+                            potential::LennardJones{.energy_scale = energy, .diameter = 0.8 * unit.length, .cutoff = 0.89 * unit.length})
+                            .excluding_bonded(1));
     pieces.template group<Beads>().template get<field::Velocity>() = {speeds.begin(), speeds.end()};
     const auto report = pieces.run({.until = 4.0 * unit.time});
     CHECK(report.limit.bound_by == "collisions of a pair potential");

@@ -32,14 +32,17 @@ template <class Hold>
 auto bead_pair(const KelvinVoigt& law, double force, double mass) {
   const auto pull = [&](double f) { return forcing::Constant<1>{.uniform_acceleration = {{{f / mass}}}}; };
   return scene<Leapfrog>(Box<1>::unbounded(), group<Left>("left", Hold{}, Points<1>{{Vector<1>(0.0)}}, mass),
-                         group<Right>("right", Mobile{}, Points<1>{{Vector<1>(rest_length)}}, mass), implicit_bonds<Left, Right>(law, {{0, 0}}), forced_by<Left>(pull(-force)),
-                         forced_by<Right>(pull(force)));
+                         group<Right>("right", Mobile{}, Points<1>{{Vector<1>(rest_length)}}, mass),
+                         implicit_bonds<Left, Right>(law, {{0, 0}}), forced_by<Left>(pull(-force)), forced_by<Right>(pull(force)));
 }
-double extension(const auto& scene) { return scene.template group<Right>().positions()[0][0] - scene.template group<Left>().positions()[0][0] - rest_length; }
+double extension(const auto& scene) {
+  return scene.template group<Right>().positions()[0][0] - scene.template group<Left>().positions()[0][0] - rest_length;
+}
 
 /// X(t) of m X'' + c X' + k X = F from rest, over-damped.
 double creep(const KelvinVoigt& law, double force, double mass, double t) {
-  const double g = law.damping / (2.0 * mass), squared = law.stiffness / mass, fast = -g - std::sqrt(g * g - squared), slow = squared / fast;
+  const double g = law.damping / (2.0 * mass), squared = law.stiffness / mass, fast = -g - std::sqrt(g * g - squared),
+               slow = squared / fast;
   return force / law.stiffness * (1.0 - (fast * std::exp(slow * t) - slow * std::exp(fast * t)) / (fast - slow));
 }
 /// |X - exact| over all steps, as a fraction of |X|, both as roots of mean squares.
@@ -58,7 +61,8 @@ double creep_error(const KelvinVoigt& law, double force, double mass, double unt
 
 }  // namespace
 
-TEST_CASE("A1: creep of one bond of 0.2 N s/m on beads of 1e-5 kg, at up to 180 times the step that an explicit dashpot bears: second order") {
+TEST_CASE(
+    "A1: creep of one bond of 0.2 N s/m on beads of 1e-5 kg, at up to 180 times the step that an explicit dashpot bears: second order") {
   const KelvinVoigt law{.stiffness = 0.2, .damping = 0.2};
   const auto error = [&](double step) { return creep_error<Mobile>(law, 1.0, 1e-5, 5.0, step); };
   CHECK(error(9e-3) <= 1e-5);  // sheet 01, section 5: 6.6e-6
@@ -67,7 +71,8 @@ TEST_CASE("A1: creep of one bond of 0.2 N s/m on beads of 1e-5 kg, at up to 180 
   CHECK(std::log2(error(2e-5) / error(1e-5)) == doctest::Approx(2.0).epsilon(0.05));
 }
 
-TEST_CASE("KV-1: over-damped creep, one bead held or both free, at ten times the explicit bound and more, with the second order of the step") {
+TEST_CASE(
+    "KV-1: over-damped creep, one bead held or both free, at ten times the explicit bound and more, with the second order of the step") {
   const KelvinVoigt law{.stiffness = 1.0, .damping = 20.0};  // explicit: stable below 0.1 s held, 0.05 s free
   const auto check = [&]<class Hold>(Hold) {
     const auto error = [&](double step) { return creep_error<Hold>(law, 1.0, 1.0, 20.0, step); };
@@ -117,18 +122,22 @@ auto tangle(const Box<3>& box, double damping, const MakeBonds& make_bonds, cons
     (k < 9 ? beads : others).positions.push_back(x + shift);
     const std::uint32_t row = k < 9 ? k : k - 9;
     for (std::uint32_t other = 0; other < std::min(k, 9u); ++other)
-      if ((k + other) % 3 != 0) (k < 9 ? within : between).push_back(k < 9 ? Bond{row, other, 0.5 + 0.05 * other, 1.0 + 0.2 * (k % 2)} : Bond{other, row});
+      if ((k + other) % 3 != 0)
+        (k < 9 ? within : between).push_back(k < 9 ? Bond{row, other, 0.5 + 0.05 * other, 1.0 + 0.2 * (k % 2)} : Bond{other, row});
   }
   for (auto* const points : {&beads, &others})
     for (auto& x : points->positions) x = box.wrap(x);
   const KelvinVoigt law{.stiffness = 20.0, .damping = damping};
-  auto result = scene<Leapfrog>(box, group<Net>("net", Mobile{}, beads, 1.0), group<Other>("others", Mobile{}, others, 2.0), make_bonds.template operator()<Net, Net>(law, within),
-                                make_bonds.template operator()<Net, Other>(law, between));
+  auto result =
+      scene<Leapfrog>(box, group<Net>("net", Mobile{}, beads, 1.0), group<Other>("others", Mobile{}, others, 2.0),
+                      make_bonds.template operator()<Net, Net>(law, within), make_bonds.template operator()<Net, Other>(law, between));
   result.template group<Net>().template set<field::Velocity>([&](const auto&) { return random.vector(1.0); });
   result.template group<Other>().template set<field::Velocity>([&](const auto&) { return random.vector(1.0); });
   return result;
 }
-constexpr auto implicitly = []<class A, class B>(const KelvinVoigt& law, const std::vector<Bond>& list) { return implicit_bonds<A, B>(law, list); };
+constexpr auto implicitly = []<class A, class B>(const KelvinVoigt& law, const std::vector<Bond>& list) {
+  return implicit_bonds<A, B>(law, list);
+};
 constexpr auto explicitly = []<class A, class B>(const KelvinVoigt& law, const std::vector<Bond>& list) { return bonds<A, B>(law, list); };
 
 std::vector<double> state(auto& scene) {
@@ -178,7 +187,8 @@ TEST_CASE("implicit bonds in a net: the solution is that of explicit ones with s
   const auto box = Box<3>::unbounded();
   const auto exact = run(tangle(box, 2.0, implicitly), 1.0 / 8192);
   CHECK(apart(run(tangle(box, 2.0, explicitly), 1.0 / 8192), exact) <= 1e-3);  // of first order
-  const double coarse = apart(run(tangle(box, 2.0, implicitly), 1.0 / 128), exact), fine = apart(run(tangle(box, 2.0, implicitly), 1.0 / 256), exact);
+  const double coarse = apart(run(tangle(box, 2.0, implicitly), 1.0 / 128), exact),
+               fine = apart(run(tangle(box, 2.0, implicitly), 1.0 / 256), exact);
   CHECK(fine <= 1e-3);
   CHECK(std::log2(coarse / fine) == doctest::Approx(2.0).epsilon(0.05));
 }
@@ -213,7 +223,8 @@ TEST_CASE("implicit bonds: rigid rotation is free of damping") {
   for (const double damping : {1.0, 1e8}) {
     auto dumbbell = scene<Leapfrog>(Box<3>::unbounded(), group<Net>("net", Mobile{}, Points<3>{{{0.0, 0.0, 0.0}, {0.6, 0.0, 0.8}}}, 1.0),
                                     implicit_bonds<Net, Net>({.stiffness = 1e4, .damping = damping}, {{0, 1, 1.0 - 0.5e-4}}));
-    dumbbell.group<Net>().set<field::Velocity>([](const Vector<3>& x) { return Vector<3>(0.5 * (x.norm() > 0.5 ? 1.0 : -1.0) * Vector<3>(0.8, 0.0, -0.6)); });
+    dumbbell.group<Net>().set<field::Velocity>(
+        [](const Vector<3>& x) { return Vector<3>(0.5 * (x.norm() > 0.5 ? 1.0 : -1.0) * Vector<3>(0.8, 0.0, -0.6)); });
     const Sums start = sums_of(dumbbell);
     dumbbell.run({.until = 2.0, .time_step = 1e-3});
     const Sums now = sums_of(dumbbell);
@@ -248,10 +259,12 @@ auto lattice() {
       }
   const double length = 0.1 * side;
   const KelvinVoigt law{.stiffness = 50.0, .damping = 100.0};
-  auto result = scene<Leapfrog>(Box<3>{.lower = {0.0, 0.0, 0.0}, .upper = {length, length, length}, .periodic = {true, true, false}}, group<Net>("net", Mobile{}, beads, 1.0),
-                                group<Plate>("plate", Driven<Tow>{}, plate, 1.0), implicit_bonds<Net, Net>(law, list), implicit_bonds<Plate, Net>(law, to_plate));
+  auto result = scene<Leapfrog>(Box<3>{.lower = {0.0, 0.0, 0.0}, .upper = {length, length, length}, .periodic = {true, true, false}},
+                                group<Net>("net", Mobile{}, beads, 1.0), group<Plate>("plate", Driven<Tow>{}, plate, 1.0),
+                                implicit_bonds<Net, Net>(law, list), implicit_bonds<Plate, Net>(law, to_plate));
   test::RandomVectors random;
-  result.template group<Net>().template set<field::Velocity>([&](const auto&) { return Vector<3>(random.vector(0.02) + Vector<3>(1.0, 0.0, 0.0)); });
+  result.template group<Net>().template set<field::Velocity>(
+      [&](const auto&) { return Vector<3>(random.vector(0.02) + Vector<3>(1.0, 0.0, 0.0)); });
   return result;
 }
 }  // namespace
@@ -303,5 +316,6 @@ TEST_CASE("dashpots that cannot be solved for end the run with an error that say
   CHECK(text.find("implicit_bonds") != std::string::npos);
   CHECK(text.find("did not converge") != std::string::npos);
   CHECK(text.find("step 1") != std::string::npos);
-  CHECK_THROWS_WITH_AS((void(implicit_bonds<Left, Right>({.stiffness = 1.0, .damping = 1.0}, {}, 0.0))), "implicit_bonds: tolerance must be > 0 and < 1, got 0", ParameterError);
+  CHECK_THROWS_WITH_AS((void(implicit_bonds<Left, Right>({.stiffness = 1.0, .damping = 1.0}, {}, 0.0))),
+                       "implicit_bonds: tolerance must be > 0 and < 1, got 0", ParameterError);
 }

@@ -39,16 +39,19 @@ auto chain() {  // KV-x: bonds only
                                      bonds<Solid, Solid>(bond::KelvinVoigt{.stiffness = 1.0, .damping = 1.0}, {{0, 1}, {1, 2}, {2, 3}}));
 }
 auto channel() {  // VISC-1: fluid between frozen walls
-  return scene<integrator::ExtrapolatedVerlet>(box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0), group<Wall>("wall", Frozen<2>{}, row(10, 0.4), 1.0),
-                                               interaction<Water, Water>(flow), interaction<Water, Wall>(flow), material<Water, Wall>(tait, newtonian));
+  return scene<integrator::ExtrapolatedVerlet>(box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0),
+                                               group<Wall>("wall", Frozen<2>{}, row(10, 0.4), 1.0), interaction<Water, Water>(flow),
+                                               interaction<Water, Wall>(flow), material<Water, Wall>(tait, newtonian));
 }
 auto basin() {  // fluid beside a wall whose density answers
-  return scene<integrator::ExtrapolatedVerlet>(box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0), group<Wall>("wall", Stationary{}, row(10, 0.4), 1.0),
-                                               interaction<Water, Water>(flow), interaction<Water, Wall>(flow), material<Water, Wall>(tait, newtonian));
+  return scene<integrator::ExtrapolatedVerlet>(box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0),
+                                               group<Wall>("wall", Stationary{}, row(10, 0.4), 1.0), interaction<Water, Water>(flow),
+                                               interaction<Water, Wall>(flow), material<Water, Wall>(tait, newtonian));
 }
 auto membrane() {  // DMP-A: fluid and bonded beads that are SPH particles too
   return scene<integrator::ExtrapolatedVerlet>(
-      box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0), group<Solid>("membrane", Mobile{}, row(10, 0.4), 1.0), interaction<Water, Water>(flow),
+      box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0), group<Solid>("membrane", Mobile{}, row(10, 0.4), 1.0),
+      interaction<Water, Water>(flow),
       interaction<Water, Solid>(flow, potential::LennardJones{.energy_scale = 1.0, .diameter = 0.1, .cutoff = 0.1}),
       bonds<Solid, Solid>(bond::Harmonic{.stiffness = 1.0}, {{0, 1}}), material<Water, Solid>(tait, newtonian));
 }
@@ -100,29 +103,35 @@ const sph::HeatConduction<Lucy> conduction{.kernel = lucy};
 template <class Integrator, class V>
 auto tube(const V& viscosity) {  // NASG-1, with an ideal gas: a fluid whose pressure depends on the energy, between frozen ends
   const sph::Compressible<Lucy, V> law{.kernel = lucy, .viscosity = viscosity};
-  return scene<Integrator>(box, group<Water>("gas", Mobile{}, row(10, 0.5), 1.0), group<Wall>("ends", Frozen<2>{}, row(10, 0.4), 1.0), interaction<Water, Water>(law),
-                           interaction<Water, Wall>(law), material<Water, Wall>(eos::liquid_water));
+  return scene<Integrator>(box, group<Water>("gas", Mobile{}, row(10, 0.5), 1.0), group<Wall>("ends", Frozen<2>{}, row(10, 0.4), 1.0),
+                           interaction<Water, Water>(law), interaction<Water, Wall>(law), material<Water, Wall>(eos::liquid_water));
 }
 template <class Integrator>
 auto slabs() {  // HX: two phases at rest
-  return scene<Integrator>(box, group<Water>("liquid", Stationary{}, row(10, 0.5), 1.0), group<Solid>("gas", Stationary{}, row(10, 0.4), 1.0), group<Wall>("face", Frozen<2>{}, row(10, 0.3), 1.0),
-                           interaction<Water, Water>(conduction), interaction<Water, Solid>(conduction), interaction<Solid, Solid>(conduction), interaction<Solid, Wall>(conduction),
-                           material<Water>(Caloric{4000.0}, Conductor{0.6}, Rigid{1000.0}), material<Solid, Wall>(Caloric{1000.0}, Conductor{0.02}, Rigid{1.0}));
+  return scene<Integrator>(
+      box, group<Water>("liquid", Stationary{}, row(10, 0.5), 1.0), group<Solid>("gas", Stationary{}, row(10, 0.4), 1.0),
+      group<Wall>("face", Frozen<2>{}, row(10, 0.3), 1.0), interaction<Water, Water>(conduction), interaction<Water, Solid>(conduction),
+      interaction<Solid, Solid>(conduction), interaction<Solid, Wall>(conduction),
+      material<Water>(Caloric{4000.0}, Conductor{0.6}, Rigid{1000.0}), material<Solid, Wall>(Caloric{1000.0}, Conductor{0.02}, Rigid{1.0}));
 }
 template <class Integrator, class Viscosity>
 auto channel_of_given_temperature(const Viscosity& viscosity, const geometry::Points<2>& wall) {  // VISC-2
-  return scene<Integrator>(box, group<Water>("water", Mobile{}, row(10, 0.5), 0.01), group<Wall>("wall", Frozen<2>{}, wall, 0.01), interaction<Water, Water>(flow),
-                           interaction<Water, Wall>(flow), material<Water, Wall>(tait, viscosity));
+  return scene<Integrator>(box, group<Water>("water", Mobile{}, row(10, 0.5), 0.01), group<Wall>("wall", Frozen<2>{}, wall, 0.01),
+                           interaction<Water, Water>(flow), interaction<Water, Wall>(flow), material<Water, Wall>(tait, viscosity));
 }
 template <class Integrator>
 auto warm_channel() {  // VISC-3: the temperature is conducted, the viscosity follows it
   const Flow friction{.kernel = {.support_radius = 0.26}};
-  return scene<Integrator>(box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0), group<Wall>("wall", Frozen<2>{}, row(10, 0.4), 1.0), interaction<Water, Water>(friction, conduction),
-                           interaction<Water, Wall>(friction, conduction), material<Water, Wall>(tait, Caloric{4000.0}, Conductor{0.6}, Arrhenius{1.83e-4, 1879.9}));
+  return scene<Integrator>(box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0), group<Wall>("wall", Frozen<2>{}, row(10, 0.4), 1.0),
+                           interaction<Water, Water>(friction, conduction), interaction<Water, Wall>(friction, conduction),
+                           material<Water, Wall>(tait, Caloric{4000.0}, Conductor{0.6}, Arrhenius{1.83e-4, 1879.9}));
 }
 auto thinning_channel() {  // VISC-5: the viscosity follows the shear rate
-  return scene<integrator::LammpsVerlet>(box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0), group<Wall>("wall", Frozen<2>{}, row(10, 0.4), 1.0), interaction<Water, Water>(flow), interaction<Water, Wall>(flow),
-                                         summed<Water>(sph::ShearRate<kernel::WendlandC2<2>>{.kernel = {.support_radius = 0.26}}), material<Water>(tait, Thinning{0.01}), material<Wall>(tait, newtonian));
+  return scene<integrator::LammpsVerlet>(box, group<Water>("water", Mobile{}, row(10, 0.5), 1.0),
+                                         group<Wall>("wall", Frozen<2>{}, row(10, 0.4), 1.0), interaction<Water, Water>(flow),
+                                         interaction<Water, Wall>(flow),
+                                         summed<Water>(sph::ShearRate<kernel::WendlandC2<2>>{.kernel = {.support_radius = 0.26}}),
+                                         material<Water>(tait, Thinning{0.01}), material<Wall>(tait, newtonian));
 }
 
 }  // namespace
@@ -146,7 +155,8 @@ TEST_CASE("a bond-only scene has no density, no neighbour list and no ghosts; a 
 
 TEST_CASE("an isothermal 2D fluid stores two components and no energy; mass and viscosity are constants of the group") {
   using Channel = decltype(channel());
-  static_assert(std::is_same_v<LayoutIn<Channel, Water>::columns, Fields<Position, Velocity, Acceleration, Density, DensityRate, Previous<DensityRate>>>);
+  static_assert(std::is_same_v<LayoutIn<Channel, Water>::columns,
+                               Fields<Position, Velocity, Acceleration, Density, DensityRate, Previous<DensityRate>>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::record, Fields<Position, Velocity, Density, PressureTerm>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::constants, Fields<Mass, DynamicViscosity>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::derived, Fields<PressureTerm>>);  // the sound speed is for the time step alone
@@ -185,7 +195,8 @@ TEST_CASE("a stationary wall stores its density and the rate of it, no velocity 
 
 TEST_CASE("an elastic membrane in a fluid carries what both its laws need, and no energy") {
   using Balloon = decltype(membrane());
-  static_assert(std::is_same_v<LayoutIn<Balloon, Solid>::columns, Fields<Position, Velocity, Acceleration, Density, DensityRate, Previous<DensityRate>>>);
+  static_assert(std::is_same_v<LayoutIn<Balloon, Solid>::columns,
+                               Fields<Position, Velocity, Acceleration, Density, DensityRate, Previous<DensityRate>>>);
   static_assert(std::is_same_v<LayoutIn<Balloon, Solid>::writes, Fields<Force, Acceleration, DensityRate>>);
   static_assert(std::is_same_v<LayoutIn<Balloon, Water>::columns, LayoutIn<Balloon, Solid>::columns>);
   auto scene = membrane();
@@ -202,24 +213,31 @@ TEST_CASE("absent physics takes no byte") {
 // In these scenes we hold what the sheet's table names, but that v* is no column (laws see it in the record), and that an integrator which
 // extrapolates the state (ExtrapolatedVerlet) keeps each rate of the step before; LAMMPS' (LammpsVerlet) does not.
 
-TEST_CASE("NASG-1: a gas in a tube carries density and energy, and shows its neighbours pressure term and sound speed; no temperature, no viscosity") {
+TEST_CASE(
+    "NASG-1: a gas in a tube carries density and energy, and shows its neighbours pressure term and sound speed; no temperature, no "
+    "viscosity") {
   using Tube = decltype(tube<integrator::LammpsVerlet>(viscosity::ShockCapturing{.alpha = 1.0}));
-  static_assert(std::is_same_v<LayoutIn<Tube, Water>::columns, Fields<Position, Velocity, Acceleration, Density, SpecificEnergy, DensityRate, SpecificEnergyRate>>);
+  static_assert(std::is_same_v<LayoutIn<Tube, Water>::columns,
+                               Fields<Position, Velocity, Acceleration, Density, SpecificEnergy, DensityRate, SpecificEnergyRate>>);
   static_assert(std::is_same_v<LayoutIn<Tube, Water>::record, Fields<Position, Velocity, Density, PressureTerm, SoundSpeed>>);
   static_assert(std::is_same_v<LayoutIn<Tube, Water>::constants, Fields<Mass>>);
   static_assert(std::is_same_v<LayoutIn<Tube, Water>::derived, Fields<PressureTerm, SoundSpeed>>);
   static_assert(std::is_same_v<LayoutIn<Tube, Water>::writes, Fields<Acceleration, DensityRate, SpecificEnergyRate>>);
   static_assert(std::is_same_v<LayoutIn<Tube, Wall>::columns, Fields<Position, Density, SpecificEnergy>>);
-  using Global = decltype(tube<integrator::LammpsVerlet>(viscosity::Artificial{.alpha = 1.0, .sound_speed = 1.0}));  // one sound speed for all
+  using Global =
+      decltype(tube<integrator::LammpsVerlet>(viscosity::Artificial{.alpha = 1.0, .sound_speed = 1.0}));  // one sound speed for all
   static_assert(std::is_same_v<LayoutIn<Global, Water>::record, Fields<Position, Velocity, Density, PressureTerm>>);
   using Extrapolated = decltype(tube<integrator::ExtrapolatedVerlet>(viscosity::ShockCapturing{.alpha = 1.0}));
-  static_assert(std::is_same_v<LayoutIn<Extrapolated, Water>::columns, Fields<Position, Velocity, Acceleration, Density, SpecificEnergy, DensityRate, SpecificEnergyRate,
-                                                                              Previous<DensityRate>, Previous<SpecificEnergyRate>>>);
+  static_assert(std::is_same_v<LayoutIn<Extrapolated, Water>::columns,
+                               Fields<Position, Velocity, Acceleration, Density, SpecificEnergy, DensityRate, SpecificEnergyRate,
+                                      Previous<DensityRate>, Previous<SpecificEnergyRate>>>);
   static_assert(std::is_same_v<LayoutIn<Extrapolated, Wall>::columns, LayoutIn<Tube, Wall>::columns>);
   CHECK(GroupIn<Tube, Water>::Columns::bytes_per_particle == 3 * 16 + 4 * 8);
 }
 
-TEST_CASE("HX: heat between bodies at rest needs position and energy; no velocity, no acceleration; density and conductivity are constants of the group") {
+TEST_CASE(
+    "HX: heat between bodies at rest needs position and energy; no velocity, no acceleration; density and conductivity are constants of "
+    "the group") {
   using Slabs = decltype(slabs<integrator::LammpsVerlet>());
   static_assert(std::is_same_v<LayoutIn<Slabs, Water>::columns, Fields<Position, SpecificEnergy, SpecificEnergyRate>>);
   static_assert(std::is_same_v<LayoutIn<Slabs, Water>::record, Fields<Position, Temperature>>);
@@ -228,7 +246,8 @@ TEST_CASE("HX: heat between bodies at rest needs position and energy; no velocit
   static_assert(std::is_same_v<LayoutIn<Slabs, Solid>::columns, LayoutIn<Slabs, Water>::columns>);
   static_assert(std::is_same_v<LayoutIn<Slabs, Wall>::columns, Fields<Position, SpecificEnergy>>);
   using Extrapolated = decltype(slabs<integrator::ExtrapolatedVerlet>());
-  static_assert(std::is_same_v<LayoutIn<Extrapolated, Water>::columns, Fields<Position, SpecificEnergy, SpecificEnergyRate, Previous<SpecificEnergyRate>>>);
+  static_assert(std::is_same_v<LayoutIn<Extrapolated, Water>::columns,
+                               Fields<Position, SpecificEnergy, SpecificEnergyRate, Previous<SpecificEnergyRate>>>);
   auto scene = slabs<integrator::LammpsVerlet>();
   scene.engine().for_each_group([](auto& g) { g.template set<SpecificEnergy>([](const auto&) { return 3e5; }); });
   scene.run({.until = 1.0, .time_step = 0.01});
@@ -236,9 +255,12 @@ TEST_CASE("HX: heat between bodies at rest needs position and energy; no velocit
   CHECK(GroupIn<Slabs, Water>::Columns::bytes_per_particle == 32);
 }
 
-TEST_CASE("VISC-2: a channel of given temperature adds that column and shows neighbours the viscosity: no energy, no rate of it, no conduction; once per particle and step") {
+TEST_CASE(
+    "VISC-2: a channel of given temperature adds that column and shows neighbours the viscosity: no energy, no rate of it, no conduction; "
+    "once per particle and step") {
   using Channel = decltype(channel_of_given_temperature<integrator::LammpsVerlet>(Arrhenius{1.83e-4, 1879.9}, row(10, 0.4)));
-  static_assert(std::is_same_v<LayoutIn<Channel, Water>::columns, Fields<Position, Velocity, Acceleration, Density, Temperature, DensityRate>>);
+  static_assert(
+      std::is_same_v<LayoutIn<Channel, Water>::columns, Fields<Position, Velocity, Acceleration, Density, Temperature, DensityRate>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::record, Fields<Position, Velocity, Density, PressureTerm, DynamicViscosity>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::derived, Fields<PressureTerm, DynamicViscosity>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::constants, Fields<Mass>>);
@@ -246,7 +268,8 @@ TEST_CASE("VISC-2: a channel of given temperature adds that column and shows nei
   static_assert(std::is_same_v<LayoutIn<Channel, Wall>::columns, Fields<Position, Density, Temperature>>);
   static_assert(GroupIn<Channel, Water>::Columns::bytes_per_particle == 3 * 16 + 3 * 8);
   using Extrapolated = decltype(channel_of_given_temperature<integrator::ExtrapolatedVerlet>(Arrhenius{1.83e-4, 1879.9}, row(10, 0.4)));
-  static_assert(std::is_same_v<LayoutIn<Extrapolated, Water>::columns, Fields<Position, Velocity, Acceleration, Density, Temperature, DensityRate, Previous<DensityRate>>>);
+  static_assert(std::is_same_v<LayoutIn<Extrapolated, Water>::columns,
+                               Fields<Position, Velocity, Acceleration, Density, Temperature, DensityRate, Previous<DensityRate>>>);
 
   const auto evaluations_of = [](std::uint64_t steps, const geometry::Points<2>& wall) {
     auto scene = channel_of_given_temperature<integrator::LammpsVerlet>(CountedArrhenius{{1.83e-7, 1879.9}}, wall);
@@ -260,24 +283,32 @@ TEST_CASE("VISC-2: a channel of given temperature adds that column and shows nei
     return CountedArrhenius::evaluations.load();
   };
   CHECK(evaluations_of(90, row(10, 0.4)) - evaluations_of(30, row(10, 0.4)) == 60 * 10);
-  CHECK(evaluations_of(90, geometry::merge(row(10, 0.4), row(10, 0.3))) - evaluations_of(30, geometry::merge(row(10, 0.4), row(10, 0.3))) == 60 * 10);  // more pairs
+  CHECK(evaluations_of(90, geometry::merge(row(10, 0.4), row(10, 0.3))) - evaluations_of(30, geometry::merge(row(10, 0.4), row(10, 0.3))) ==
+        60 * 10);  // more pairs
 }
 
-TEST_CASE("VISC-3: a channel whose viscosity follows a conducted temperature: flow and conduction are one sweep, temperature and viscosity no columns") {
+TEST_CASE(
+    "VISC-3: a channel whose viscosity follows a conducted temperature: flow and conduction are one sweep, temperature and viscosity no "
+    "columns") {
   using Channel = decltype(warm_channel<integrator::LammpsVerlet>());
-  static_assert(std::is_same_v<LayoutIn<Channel, Water>::columns, Fields<Position, Velocity, Acceleration, Density, SpecificEnergy, DensityRate, SpecificEnergyRate>>);
-  static_assert(std::is_same_v<LayoutIn<Channel, Water>::record, Fields<Position, Velocity, Density, PressureTerm, DynamicViscosity, Temperature>>);
+  static_assert(std::is_same_v<LayoutIn<Channel, Water>::columns,
+                               Fields<Position, Velocity, Acceleration, Density, SpecificEnergy, DensityRate, SpecificEnergyRate>>);
+  static_assert(
+      std::is_same_v<LayoutIn<Channel, Water>::record, Fields<Position, Velocity, Density, PressureTerm, DynamicViscosity, Temperature>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::derived, Fields<PressureTerm, Temperature, DynamicViscosity>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::constants, Fields<Mass, ThermalConductivity>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Wall>::columns, Fields<Position, Density, SpecificEnergy>>);
   auto scene = warm_channel<integrator::LammpsVerlet>();
   scene.engine().for_each_group([](auto& g) { g.template set<SpecificEnergy>([](const auto&) { return 4000.0 * 300.0; }); });
-  CHECK(describe(scene).find("each step: 1 pass over the particles (integration, records), 1 sweep over their pairs and bonds") != std::string::npos);
+  CHECK(describe(scene).find("each step: 1 pass over the particles (integration, records), 1 sweep over their pairs and bonds") !=
+        std::string::npos);
 }
 
-TEST_CASE("VISC-5: a shear rate is one column of the fluid alone, and one sweep more; its neighbours see the viscosity, not the shear rate") {
+TEST_CASE(
+    "VISC-5: a shear rate is one column of the fluid alone, and one sweep more; its neighbours see the viscosity, not the shear rate") {
   using Channel = decltype(thinning_channel());
-  static_assert(std::is_same_v<LayoutIn<Channel, Water>::columns, Fields<Position, Velocity, Acceleration, Density, ShearRate, DensityRate>>);
+  static_assert(
+      std::is_same_v<LayoutIn<Channel, Water>::columns, Fields<Position, Velocity, Acceleration, Density, ShearRate, DensityRate>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Water>::record, Fields<Position, Velocity, Density, PressureTerm, DynamicViscosity>>);
   static_assert(std::is_same_v<LayoutIn<Channel, Wall>::columns, Fields<Position, Density>>);
   auto scene = thinning_channel();

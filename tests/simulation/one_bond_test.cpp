@@ -31,9 +31,8 @@ struct Pull {
   double frequency = 0.0;  // w [rad/s]; 0: constant
 
   [[nodiscard]] Components<1, double> acceleration(const auto& subject) const {
-    const double share = std::fabs(subject.time - off) < 1e-9 ? 0.5
-                         : subject.time < off                 ? 1.0
-                                                              : 0.0;  // the mean of both sides at the switch
+    const bool at_switch = std::fabs(subject.time - off) < 1e-9;  // there the mean of both sides
+    const double share = at_switch ? 0.5 : subject.time < off ? 1.0 : 0.0;
     return {{share * force * (frequency > 0.0 ? std::sin(frequency * subject.time) : 1.0) / subject.mass}};
   }
 };

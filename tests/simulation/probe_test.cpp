@@ -13,7 +13,8 @@ TEST_CASE("a probe reads a constant field exactly, also across a periodic face, 
       CHECK(*probe<Water, field::Density>(scene, kernel, point) == doctest::Approx(1.0).epsilon(1e-14));
     const Vector<2> point(0.21, 0.06);
     constexpr double k = 2.0 * std::numbers::pi;
-    const double error = std::fabs((*probe<Water, field::Velocity>(scene, kernel, point))[0] - std::sin(k * point[0]) * std::cos(k * point[1]));
+    const double error =
+        std::fabs((*probe<Water, field::Velocity>(scene, kernel, point))[0] - std::sin(k * point[0]) * std::cos(k * point[1]));
     const double smoothing = 0.5 * k * k * 5.0 / 36.0 * square(2.6 / columns);  // (1/4) <r^2> laplacian(u), <r^2> = 5 h^2/36 of this kernel
     CHECK(error < 1.2 * smoothing);
     if (before > 0.0) CHECK(error < before / 3.0);

@@ -37,7 +37,9 @@ struct Heater {
   static constexpr bool uses_velocity = false;
   double power, reversal, reach;
   [[nodiscard]] double cutoff() const { return reach; }
-  void add(const auto& pair, const auto&, const auto&, auto& sums) const { sums.specific_energy_rate += select(pair.distance < reach, power * (reversal - pair.distance), 0.0 * pair.distance); }
+  void add(const auto& pair, const auto&, const auto&, auto& sums) const {
+    sums.specific_energy_rate += select(pair.distance < reach, power * (reversal - pair.distance), 0.0 * pair.distance);
+  }
   void step_limits(const sweep::StepState&, sweep::StepLimit&) const {}
 };
 void validate(const Heater&) {}
@@ -48,7 +50,8 @@ constexpr double c = 4.0, dt = 1.0 / 128.0, w = 800.0;
 /// Then they cool: T = 300 + w (t - t^2)/(2 c), at most 325 K, at t = 1/2. Particles 0 and 1 stay as they are.
 auto flight(double hottest, double start = 300.0) {
   auto result = scene<integrator::ExtrapolatedVerlet>(
-      geometry::Box<2>::unbounded(), group<Water>("drops", Mobile{}, geometry::Points<2>{.positions = {{0.0, 90.0}, {1.5, 90.0}, {-0.5, 0.0}, {0.5, 0.0}}}, 1.0),
+      geometry::Box<2>::unbounded(),
+      group<Water>("drops", Mobile{}, geometry::Points<2>{.positions = {{0.0, 90.0}, {1.5, 90.0}, {-0.5, 0.0}, {0.5, 0.0}}}, 1.0),
       interaction<Water, Water>(Heater{w, 1.5, 4.0}), material<Water>(Caloric{c}, Tabulated{hottest}));
   auto& drops = result.template group<Water>();
   drops.template set<field::SpecificEnergy>([](const auto&) { return c * 300.0; });
@@ -67,7 +70,9 @@ std::uint64_t first_step_above(double hottest) {
 
 }  // namespace
 
-TEST_CASE("a law that cannot work with a particle stops the run in that very step, with its demand, particle, field and value; the last good state is on disk") {
+TEST_CASE(
+    "a law that cannot work with a particle stops the run in that very step, with its demand, particle, field and value; the last good "
+    "state is on disk") {
   // 324.9 K is passed after the check of step 50, and would be left again before that of step 100.
   for (const double hottest : {302.0, 314.7, 324.9}) {
     CAPTURE(hottest);
@@ -98,7 +103,8 @@ TEST_CASE("a law that cannot work with a particle stops the run in that very ste
     CHECK(again.time() == static_cast<double>(again.step()) * dt);
     const auto& drops = again.group<Water>();
     for (std::size_t i = 0; i < 4; ++i)
-      CHECK(drops.get<field::SpecificEnergy>()[i] / c == doctest::Approx(drops.id[i] < 2 ? 300.0 : temperature_at(again.time())).epsilon(1e-12));
+      CHECK(drops.get<field::SpecificEnergy>()[i] / c ==
+            doctest::Approx(drops.id[i] < 2 ? 300.0 : temperature_at(again.time())).epsilon(1e-12));
   }
 }
 
@@ -110,10 +116,14 @@ TEST_CASE("a run whose states stay within the range goes through") {
 
 TEST_CASE("a particle out of range at the start is an error of the input, which names group, particle, demand and value") {
   auto hot = flight(350.0, 351.0);
-  CHECK_THROWS_WITH_AS(hot.run({.until = 1.0, .time_step = dt}), doctest::Contains("scene: group drops, particle 3: Tabulated: temperature must be >= 200 and <= 350 K, got temperature 351 K"), ParameterError);
+  CHECK_THROWS_WITH_AS(
+      hot.run({.until = 1.0, .time_step = dt}),
+      doctest::Contains("scene: group drops, particle 3: Tabulated: temperature must be >= 200 and <= 350 K, got temperature 351 K"),
+      ParameterError);
   CHECK(hot.step() == 0);
   auto no_number = flight(350.0, std::nan(""));
-  CHECK_THROWS_WITH_AS(no_number.run({.until = 1.0, .time_step = dt}), doctest::Contains("particle 3: specific_energy must be finite, got nan"), ParameterError);
+  CHECK_THROWS_WITH_AS(no_number.run({.until = 1.0, .time_step = dt}),
+                       doctest::Contains("particle 3: specific_energy must be finite, got nan"), ParameterError);
   auto changed = flight(350.0);  // by the user, between two runs
   changed.run({.until = 0.1, .time_step = dt});
   changed.group<Water>().get<field::SpecificEnergy>()[1] = c * 100.0;
@@ -129,7 +139,9 @@ struct Listener {
   static constexpr bool uses_velocity = false;
   double reach;
   [[nodiscard]] double cutoff() const { return reach; }
-  void add(const auto& pair, const auto& i, const auto&, auto& sums) const { sums.acceleration += (0.0 * i.dynamic_viscosity) * pair.separation; }
+  void add(const auto& pair, const auto& i, const auto&, auto& sums) const {
+    sums.acceleration += (0.0 * i.dynamic_viscosity) * pair.separation;
+  }
   void step_limits(const sweep::StepState&, sweep::StepLimit&) const {}
 };
 void validate(const Listener&) {}
@@ -150,8 +162,10 @@ void validate(const Shearing&) {}
 
 auto sheared(double fastest, double shear_rate = 0.0) {
   auto result = scene<integrator::ExtrapolatedVerlet>(
-      geometry::Box<2>::unbounded(), group<Water>("drop", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 0.1}, {.lower = {0.0, 0.0}, .upper = {0.6, 0.6}}), 0.01), interaction<Water, Water>(Listener{0.26}),
-      summed<Water>(sph::ShearRate<kernel::Lucy<2>>{.kernel = {.support_radius = 0.26}}), material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0}, Measured{fastest}), forced_by<Water>(Shearing{8.0}));
+      geometry::Box<2>::unbounded(),
+      group<Water>("drop", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 0.1}, {.lower = {0.0, 0.0}, .upper = {0.6, 0.6}}), 0.01),
+      interaction<Water, Water>(Listener{0.26}), summed<Water>(sph::ShearRate<kernel::Lucy<2>>{.kernel = {.support_radius = 0.26}}),
+      material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0}, Measured{fastest}), forced_by<Water>(Shearing{8.0}));
   auto& drop = result.template group<Water>();
   drop.template set<field::Velocity>([&](const Vector<2>& x) { return Vector<2>(shear_rate * x[1], 0.0); });
   return result;
@@ -159,7 +173,9 @@ auto sheared(double fastest, double shear_rate = 0.0) {
 
 }  // namespace
 
-TEST_CASE("a law of a summed property stops the run in the step whose sums it cannot work with, not one later; at the start that is an error of the input") {
+TEST_CASE(
+    "a law of a summed property stops the run in the step whose sums it cannot work with, not one later; at the start that is an error of "
+    "the input") {
   for (const std::uint64_t check_every : {std::uint64_t{1}, std::uint64_t{100}}) {
     auto scene = sheared(1.03);  // the shear rate is 8 t: 1.0625 after step 17
     bool caught = false;
@@ -179,7 +195,9 @@ TEST_CASE("a law of a summed property stops the run in the step whose sums it ca
   auto before = sheared(1.03);
   CHECK_NOTHROW(before.run({.until = 16.0 * dt, .time_step = dt}));
   auto fast = sheared(1.03, 2.0);
-  CHECK_THROWS_WITH_AS(fast.run({.until = 0.5, .time_step = dt}), doctest::Contains("scene: group drop, particle 0: Measured: shear rate must be <= 1.03 1/s, got shear_rate "), ParameterError);
+  CHECK_THROWS_WITH_AS(fast.run({.until = 0.5, .time_step = dt}),
+                       doctest::Contains("scene: group drop, particle 0: Measured: shear rate must be <= 1.03 1/s, got shear_rate "),
+                       ParameterError);
 }
 
 namespace {
@@ -194,9 +212,12 @@ struct Boiling : eos::Linear {
 
 TEST_CASE("an equation of state of the density alone may have a range too") {
   auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
-      geometry::Box<2>::unbounded(), group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 0.1}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), 0.01),
-      interaction<Water, Water>(sph::WeaklyCompressible<kernel::Lucy<2>>{.kernel = {.support_radius = 0.26}}), material<Water>(Boiling{{.rest_density = 1.0, .sound_speed_0 = 0.1}}));
-  scene.group<Water>().set<field::Velocity>([](const Vector<2>& x) { return Vector<2>(0.1 * x); });  // expands: the density sinks by about 0.2 per second
+      geometry::Box<2>::unbounded(),
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 0.1}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), 0.01),
+      interaction<Water, Water>(sph::WeaklyCompressible<kernel::Lucy<2>>{.kernel = {.support_radius = 0.26}}),
+      material<Water>(Boiling{{.rest_density = 1.0, .sound_speed_0 = 0.1}}));
+  scene.group<Water>().set<field::Velocity>(
+      [](const Vector<2>& x) { return Vector<2>(0.1 * x); });  // expands: the density sinks by about 0.2 per second
   bool caught = false;
   try {
     scene.run({.until = 1.0, .time_step = 1e-3});
@@ -229,17 +250,23 @@ std::vector<double> columns_of_vortex(const Law&... law) {
   constexpr double spacing = 1.0 / 16.0, k = 2.0 * std::numbers::pi, support = 2.6 * spacing;
   auto flow = scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, true}},
-      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), spacing * spacing),
-      interaction<Water, Water>(Flow{.kernel = {.support_radius = support}}), summed<Water>(sph::ShearRate<kernel::WendlandC2<2>>{.kernel = {.support_radius = support}}), material<Water>(law...));
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}),
+                   spacing * spacing),
+      interaction<Water, Water>(Flow{.kernel = {.support_radius = support}}),
+      summed<Water>(sph::ShearRate<kernel::WendlandC2<2>>{.kernel = {.support_radius = support}}), material<Water>(law...));
   auto& water = flow.template group<Water>();
-  if constexpr (dmp::contains<field::Temperature, typename std::remove_cvref_t<decltype(water)>::Layout::columns>) water.template set<field::Temperature>([](const Vector<2>& x) { return 300.0 + x[0]; });
-  water.template set<field::Velocity>([](const Vector<2>& x) { return Vector<2>(std::sin(k * x[0]) * std::cos(k * x[1]), -std::cos(k * x[0]) * std::sin(k * x[1])); });
+  if constexpr (dmp::contains<field::Temperature, typename std::remove_cvref_t<decltype(water)>::Layout::columns>)
+    water.template set<field::Temperature>([](const Vector<2>& x) { return 300.0 + x[0]; });
+  water.template set<field::Velocity>(
+      [](const Vector<2>& x) { return Vector<2>(std::sin(k * x[0]) * std::cos(k * x[1]), -std::cos(k * x[0]) * std::sin(k * x[1])); });
   flow.run({.until = 0.02});
   std::vector<double> result;
   std::vector<std::size_t> row(water.size());
   for (std::size_t i = 0; i < row.size(); ++i) row[water.id[i]] = i;
   for (const std::size_t i : row)
-    for (const double x : {water.positions()[i][0], water.positions()[i][1], water.template get<field::Velocity>()[i][0], water.template get<field::Density>()[i], water.template get<field::ShearRate>()[i]}) result.push_back(x);
+    for (const double x : {water.positions()[i][0], water.positions()[i][1], water.template get<field::Velocity>()[i][0],
+                           water.template get<field::Density>()[i], water.template get<field::ShearRate>()[i]})
+      result.push_back(x);
   return result;
 }
 /// Two programs of the same arithmetic: to the rounding that the compiler's contractions differ by.
@@ -267,7 +294,8 @@ TEST_CASE("an equation of state chosen at run time is that law, and its rest den
 
 TEST_CASE("a viscosity chosen at run time is that law: constant, of temperature, of shear rate") {
   using Choice = std::variant<rheology::Constant, Exponential, Thinning>;
-  const auto of_constant = columns_of_vortex(tait, newtonian), of_temperature = columns_of_vortex(tait, exponential), of_shear = columns_of_vortex(tait, thinning);
+  const auto of_constant = columns_of_vortex(tait, newtonian), of_temperature = columns_of_vortex(tait, exponential),
+             of_shear = columns_of_vortex(tait, thinning);
   CHECK(!same(of_constant, of_temperature));
   CHECK(!same(of_constant, of_shear));
   CHECK(same(columns_of_vortex(tait, Choice(exponential)), of_temperature));
@@ -275,25 +303,29 @@ TEST_CASE("a viscosity chosen at run time is that law: constant, of temperature,
   CHECK(same(columns_of_vortex(tait, Choice(newtonian)), of_constant));
 }
 
-TEST_CASE("one of two constants chosen at run time stays a constant of the group; two choices at once; a bad parameter of what is chosen is named") {
+TEST_CASE(
+    "one of two constants chosen at run time stays a constant of the group; two choices at once; a bad parameter of what is chosen is "
+    "named") {
   using Constants = std::variant<rheology::Constant>;
   CHECK(same(columns_of_vortex(tait, Constants(newtonian)), columns_of_vortex(tait, newtonian)));
   using Eos = std::variant<eos::Tait, eos::Linear>;
   using Viscosity = std::variant<Exponential, Thinning>;
   CHECK(same(columns_of_vortex(Eos(linear), Viscosity(thinning)), columns_of_vortex(linear, thinning)));
-  CHECK_THROWS_WITH_AS((void)material<Water>(Viscosity(Exponential{0.0, 1.0})), doctest::Contains("Exponential: mu must be finite and > 0 Pa s, got 0"), ParameterError);
+  CHECK_THROWS_WITH_AS((void)material<Water>(Viscosity(Exponential{0.0, 1.0})),
+                       doctest::Contains("Exponential: mu must be finite and > 0 Pa s, got 0"), ParameterError);
 }
 
 TEST_CASE("a chosen law's range counts, that of those not chosen does not") {
   using Choice = std::variant<Tabulated, Exponential>;
   const auto run = [](const Choice& choice) {
     auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
-        geometry::Box<2>::unbounded(), group<Water>("drops", Mobile{}, geometry::Points<2>{.positions = {{0.0, 0.0}, {1.0, 0.0}}}, 1.0), interaction<Water, Water>(Heater{w, 1.5, 4.0}),
-        material<Water>(Caloric{c}, choice));
+        geometry::Box<2>::unbounded(), group<Water>("drops", Mobile{}, geometry::Points<2>{.positions = {{0.0, 0.0}, {1.0, 0.0}}}, 1.0),
+        interaction<Water, Water>(Heater{w, 1.5, 4.0}), material<Water>(Caloric{c}, choice));
     scene.group<Water>().set<field::SpecificEnergy>([](const auto&) { return c * 300.0; });
     scene.run({.until = 1.0, .time_step = dt});  // heats by 50 K/s
   };
-  CHECK_THROWS_WITH_AS(run(Tabulated{310.0}), doctest::Contains("Tabulated: temperature must be >= 200 and <= 310 K, got temperature 310."), SimulationError);
+  CHECK_THROWS_WITH_AS(run(Tabulated{310.0}), doctest::Contains("Tabulated: temperature must be >= 200 and <= 310 K, got temperature 310."),
+                       SimulationError);
   CHECK_NOTHROW(run(Tabulated{410.0}));
   CHECK_NOTHROW(run(exponential));
 }

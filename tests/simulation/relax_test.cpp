@@ -265,7 +265,8 @@ TEST_CASE("relax: bonds, a potential and planes on two groups; the same bits for
   }
 }
 
-TEST_CASE("relax: a bead that a soft spring lets fall on a stiff plane comes to rest on it, though the plane is felt only when it is reached") {
+TEST_CASE(
+    "relax: a bead that a soft spring lets fall on a stiff plane comes to rest on it, though the plane is felt only when it is reached") {
   for (const double strength : {1e4, 1e8, 1e12}) {
     CAPTURE(strength);
     auto pressed = scene<Leapfrog>(Box<1>::unbounded(), group<Ends>("hook", Frozen<1>{}, Points<1>{{Vector<1>(1.0)}}, mass),

@@ -146,8 +146,8 @@ Vector<2> swung_exactly() {
   constexpr double dt = 1.0 / steps;
   for (int n = 0; n < steps; ++n) {
     const double t = n * dt, v1 = v, a1 = acceleration(t, y, v), v2 = v + 0.5 * dt * a1,
-                 a2 = acceleration(t + 0.5 * dt, y + 0.5 * dt * v1, v2), v3 = v + 0.5 * dt * a2, a3 = acceleration(t + 0.5 * dt, y + 0.5 * dt * v2, v3), v4 = v + dt * a3,
-                 a4 = acceleration(t + dt, y + dt * v3, v4);
+                 a2 = acceleration(t + 0.5 * dt, y + 0.5 * dt * v1, v2), v3 = v + 0.5 * dt * a2,
+                 a3 = acceleration(t + 0.5 * dt, y + 0.5 * dt * v2, v3), v4 = v + dt * a3, a4 = acceleration(t + dt, y + dt * v3, v4);
     y += dt / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
     v += dt / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
   }
@@ -184,12 +184,14 @@ void validate(const Rail&) {}
 
 TEST_CASE("a roller needs a direction of length 1, along or across each periodic direction of the box") {
   const auto on = [](double x, double y, bool periodic) {
-    return scene<integrator::Leapfrog>(
-        geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {periodic, false}},
-        group<Beads>("trolley", Roller{Rail{.direction = {{x, y}}}}, geometry::Points<2>{{{0.5, 0.5}}}, 1.0), forced_by<Beads>(forcing::Drag{.coefficient = 1.0}));
+    return scene<integrator::Leapfrog>(geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {periodic, false}},
+                                       group<Beads>("trolley", Roller{Rail{.direction = {{x, y}}}}, geometry::Points<2>{{{0.5, 0.5}}}, 1.0),
+                                       forced_by<Beads>(forcing::Drag{.coefficient = 1.0}));
   };
-  CHECK_THROWS_WITH_AS((void)on(2.0, 0.0, false), "group trolley: direction of a Roller must have length 1, its square, got 4", ParameterError);
-  CHECK_THROWS_WITH_AS((void)on(0.6, 0.8, true), "group trolley: direction of a Roller must lie along or across each periodic direction, got component 0.6 along one",
+  CHECK_THROWS_WITH_AS((void)on(2.0, 0.0, false), "group trolley: direction of a Roller must have length 1, its square, got 4",
+                       ParameterError);
+  CHECK_THROWS_WITH_AS((void)on(0.6, 0.8, true),
+                       "group trolley: direction of a Roller must lie along or across each periodic direction, got component 0.6 along one",
                        ParameterError);
   CHECK_NOTHROW((void)on(0.6, 0.8, false));
   CHECK_NOTHROW((void)on(1.0, 0.0, true));

@@ -34,7 +34,8 @@ std::vector<double> bits(Scene& scene) {
   const auto view = water.view();
   for (const auto& column : view.columns)
     for (const std::size_t k : row)
-      for (int d = 0; d < column.components; ++d) result.push_back(column.values[k * static_cast<std::size_t>(column.components) + static_cast<std::size_t>(d)]);
+      for (int d = 0; d < column.components; ++d)
+        result.push_back(column.values[k * static_cast<std::size_t>(column.components) + static_cast<std::size_t>(d)]);
   return result;
 }
 
@@ -124,7 +125,9 @@ TEST_CASE("1, 2, 3 and 4 threads give the same bits: a fluid beside a bonded bod
         interaction<Water, Solid>(potential::LennardJones{.energy_scale = 1e-6, .diameter = spacing, .cutoff = 1.12 * spacing}),
         bonds<Solid, Solid>(bond::KelvinVoigt{.stiffness = 0.1, .damping = 1e-5}, list),
         material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
-    const auto swirl = [](const Vector<2>& x) { return Vector<2>(std::sin(9.0 * x[0]) * std::cos(7.0 * x[1]), std::cos(5.0 * x[0] + 3.0 * x[1])); };
+    const auto swirl = [](const Vector<2>& x) {
+      return Vector<2>(std::sin(9.0 * x[0]) * std::cos(7.0 * x[1]), std::cos(5.0 * x[0] + 3.0 * x[1]));
+    };
     scene.group<Water>().set<field::Velocity>(swirl);
     scene.group<Solid>().set<field::Velocity>(swirl);
     scene.run({.until = 0.002, .time_step = 1e-4});
@@ -142,7 +145,9 @@ TEST_CASE("1, 2, 3 and 4 threads give the same bits: a fluid beside a bonded bod
   CHECK((first_body[0] - body.positions[0]).norm() > 1e-4);
 }
 
-TEST_CASE("a fluid that moves along as a whole wears its lists no faster than one at rest, but that it is put back into the box once per cut-off; and does the same") {
+TEST_CASE(
+    "a fluid that moves along as a whole wears its lists no faster than one at rest, but that it is put back into the box once per "
+    "cut-off; and does the same") {
   auto at_rest = vortex({}), moving = vortex({});
   const Vector<2> frame(100.0, -70.0);
   for (auto& v : moving.group<Water>().get<field::Velocity>()) v += frame;
@@ -178,7 +183,8 @@ TEST_CASE("a restart from a checkpoint continues bit for bit") {
   CHECK(same_bits(bits(through), bits(continued)));
 }
 
-TEST_CASE("a checkpoint that an observer writes in mid-run, with steps chosen by the scene, continues bit for bit; so does a run in two parts") {
+TEST_CASE(
+    "a checkpoint that an observer writes in mid-run, with steps chosen by the scene, continues bit for bit; so does a run in two parts") {
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "midway.checkpoint").string();
   auto through = vortex({});
@@ -204,9 +210,10 @@ namespace {
 /// Fall of two beads on a sub-stepped spring in 1 s at 1 m/s^2.
 template <class Integrator>
 double fall() {
-  auto pair = simulation::scene<Integrator>(
-      geometry::Box<2>::unbounded(), group<Solid>("pair", Mobile{}, geometry::Points<2>{.positions = {{0.0, 0.0}, {1.0, 0.0}}}, 1.0),
-      substepped_bonds<Solid, Solid>(bond::Harmonic{.stiffness = 1e6}, {{0, 1}}), forced_by<Solid>(forcing::Constant<2>{.uniform_acceleration = {{{0.0, -1.0}}}}));
+  auto pair = simulation::scene<Integrator>(geometry::Box<2>::unbounded(),
+                                            group<Solid>("pair", Mobile{}, geometry::Points<2>{.positions = {{0.0, 0.0}, {1.0, 0.0}}}, 1.0),
+                                            substepped_bonds<Solid, Solid>(bond::Harmonic{.stiffness = 1e6}, {{0, 1}}),
+                                            forced_by<Solid>(forcing::Constant<2>{.uniform_acceleration = {{{0.0, -1.0}}}}));
   pair.run({.until = 1.0, .time_step = 1.0 / 64.0});
   return pair.template group<Solid>().positions()[0][1];
 }
@@ -277,7 +284,8 @@ TEST_CASE("a driven group follows its motion, and pushes what it meets") {
   auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {-1.0, 0.0}, .upper = {3.0, 0.5}, .periodic = {false, true}},
       group<Water>("water", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {0.5, 0.5}}), spacing * spacing),
-      group<Wall>("piston", particles::Driven<Piston>{}, geometry::fill(lattice, {.lower = {-0.15, 0.0}, .upper = {0.0, 0.5}}), spacing * spacing),
+      group<Wall>("piston", particles::Driven<Piston>{}, geometry::fill(lattice, {.lower = {-0.15, 0.0}, .upper = {0.0, 0.5}}),
+                  spacing * spacing),
       interaction<Water, Water>(law), interaction<Water, Wall>(law),
       material<Water, Wall>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 2.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
   scene.engine().for_each_group([](auto& g) { g.template set<field::Density>([](const auto&) { return 1.0; }); });
@@ -303,7 +311,8 @@ double energy_kept_by_sound(double safety) {
   using Ideal = sph::WeaklyCompressible<kernel::WendlandC2<2>>;
   auto scene = simulation::scene<Integrator>(
       geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 0.25}, .periodic = {true, true}},
-      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 0.25}}), spacing * spacing),
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 0.25}}),
+                   spacing * spacing),
       interaction<Water, Water>(Ideal{.kernel = {.support_radius = 2.6 * spacing}}),
       material<Water>(eos::Linear{.rest_density = 1.0, .sound_speed_0 = sound_speed}));
   auto& water = scene.template group<Water>();
@@ -346,7 +355,8 @@ auto conveyor() {
   return simulation::scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {0.0, -0.5}, .upper = {0.5, 0.5}, .periodic = {true, false}},
       group<Water>("water", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {0.5, 0.2}}), spacing * spacing),
-      group<Wall>("conveyor", particles::Driven<Conveyor>{}, geometry::fill(lattice, {.lower = {0.0, -0.15}, .upper = {0.5, 0.0}}), spacing * spacing),
+      group<Wall>("conveyor", particles::Driven<Conveyor>{}, geometry::fill(lattice, {.lower = {0.0, -0.15}, .upper = {0.5, 0.0}}),
+                  spacing * spacing),
       interaction<Water, Water>(law), interaction<Water, Wall>(law),
       material<Water, Wall>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.1}));
 }
@@ -361,7 +371,8 @@ TEST_CASE("a driven wall drags from the first evaluation on; crossing the period
   CHECK(drag > 0.0);
   scene.run({.until = 1.5});  // one and a half times round
   CHECK(scene.engine().list_builds() < scene.step() / 5);
-  const double support = scene.engine().longest_cutoff();  // particles go back into the box when lists are built, at the latest after this way
+  const double support =
+      scene.engine().longest_cutoff();  // particles go back into the box when lists are built, at the latest after this way
   for (const auto& x : scene.group<Wall>().positions()) CHECK((x[0] > -support && x[0] < 0.5 + support));
   const TemporaryFolder folder;
   const std::string path = (folder / "conveyor.checkpoint").string();
@@ -376,7 +387,8 @@ TEST_CASE("a driven wall drags from the first evaluation on; crossing the period
 TEST_CASE("a driven wall pushes all along as it did before when some of it has crossed the periodic face") {
   auto scene = conveyor();
   auto& water = scene.group<Water>();
-  water.set<field::Velocity>([](const auto&) { return Vector<2>(0.5, 0.0); });  // along with the conveyor: all columns of the water are alike
+  water.set<field::Velocity>(
+      [](const auto&) { return Vector<2>(0.5, 0.0); });  // along with the conveyor: all columns of the water are alike
   scene.engine().for_each_group([](auto& g) { g.template set<field::Density>([](const auto&) { return 1.05; }); });
   double spread = 0.0, largest = 0.0;
   scene.every(1e-3, [&](const auto& s) {
@@ -415,7 +427,8 @@ TEST_CASE("a forcing sees particles in the periodic box, to within the cut-off a
   double farthest = 0.0;
   auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, true}},
-      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), spacing * spacing),
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}),
+                   spacing * spacing),
       interaction<Water, Water>(Flow{.kernel = {.support_radius = 2.6 * spacing}}), forced_by<Water>(Watch{&farthest}),
       material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
   scene.group<Water>().set<field::Velocity>([](const auto&) { return Vector<2>(100.0, -70.0); });
@@ -425,10 +438,11 @@ TEST_CASE("a forcing sees particles in the periodic box, to within the cut-off a
 
 TEST_CASE("sub-stepped bonds to a stationary partner restart bit for bit") {
   const auto make = [] {
-    return simulation::scene<integrator::Leapfrog>(
-        geometry::Box<2>::unbounded(), group<Water>("bead", Mobile{}, geometry::Points<2>{.positions = {{1.2, 0.0}}}, 1.0),
-        group<Wall>("post", Stationary{}, geometry::Points<2>{.positions = {{0.0, 0.0}}}, 1.0),
-        substepped_bonds<Water, Wall>(bond::Harmonic{.stiffness = 100.0}, {{0, 0, 1.0}}), forced_by<Water>(forcing::Constant<2>{.uniform_acceleration = {{{0.0, -1.0}}}}));
+    return simulation::scene<integrator::Leapfrog>(geometry::Box<2>::unbounded(),
+                                                   group<Water>("bead", Mobile{}, geometry::Points<2>{.positions = {{1.2, 0.0}}}, 1.0),
+                                                   group<Wall>("post", Stationary{}, geometry::Points<2>{.positions = {{0.0, 0.0}}}, 1.0),
+                                                   substepped_bonds<Water, Wall>(bond::Harmonic{.stiffness = 100.0}, {{0, 0, 1.0}}),
+                                                   forced_by<Water>(forcing::Constant<2>{.uniform_acceleration = {{{0.0, -1.0}}}}));
   };
   const TemporaryFolder folder;
   const std::string path = (folder / "bead.checkpoint").string();

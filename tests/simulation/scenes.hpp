@@ -31,7 +31,9 @@ inline auto vortex(const Vortex& v) {
       box,
       group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}),
                    spacing * spacing),
-      interaction<Water, Water>(law), material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = v.sound_speed}, rheology::Constant{.dynamic_viscosity = v.viscosity}));
+      interaction<Water, Water>(law),
+      material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = v.sound_speed},
+                      rheology::Constant{.dynamic_viscosity = v.viscosity}));
   auto& water = result.template group<Water>();
   water.template set<field::Density>([](const auto&) { return 1.0; });
   water.template set<field::Velocity>([](const Vector<2>& x) {

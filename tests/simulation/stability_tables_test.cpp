@@ -46,8 +46,9 @@ double fastest_decay(const K& kernel, int side) {
   double largest = 0.0;
   for_each_wave<K::dimension>(side, [&](const auto& k) {
     double sum = 0.0;
-    test::for_each_site<K::dimension>(kernel.support_radius,
-                                      [&](const auto& r, double volume) { sum -= volume * kernel.radial_factor(std::sqrt(dot(r, r))) * (1.0 - std::cos(dot(k, r))); });
+    test::for_each_site<K::dimension>(kernel.support_radius, [&](const auto& r, double volume) {
+      sum -= volume * kernel.radial_factor(std::sqrt(dot(r, r))) * (1.0 - std::cos(dot(k, r)));
+    });
     largest = std::max(largest, sum);
   });
   return largest;
@@ -103,7 +104,8 @@ void check_kernel(const std::string& name) {
   const test::Threads one(1);
   const int side = K::dimension == 3 ? 6 : 8;
   for (const double h : {1.5, 2.0, 2.6, 3.0})
-    check(fluid<ExtrapolatedVerlet>(name, "h = " + to_text(h), flow<K>(h), {.side = side}), sound_limit<ExtrapolatedVerlet> / fastest_sound(K{.support_radius = h}, side));
+    check(fluid<ExtrapolatedVerlet>(name, "h = " + to_text(h), flow<K>(h), {.side = side}),
+          sound_limit<ExtrapolatedVerlet> / fastest_sound(K{.support_radius = h}, side));
 }
 
 }  // namespace
@@ -120,7 +122,8 @@ TEST_CASE("symplectic Euler: every law is stable at 0.95 of its bound, and ends 
   check_row<SymplecticEuler>();
   check_sound<SymplecticEuler>();
 }
-TEST_CASE("LAMMPS' Verlet: all laws but sound are stable at 0.95 of their bounds; sound grows by (omega dt)^2/4 per step at half its bound") {
+TEST_CASE(
+    "LAMMPS' Verlet: all laws but sound are stable at 0.95 of their bounds; sound grows by (omega dt)^2/4 per step at half its bound") {
   check_row<LammpsVerlet>();
   const test::Threads one(1);
   const Case c = sound<LammpsVerlet>();

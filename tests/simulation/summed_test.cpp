@@ -58,12 +58,16 @@ auto mixture(const Mixture& m) {
   };
   const Flow law{.kernel = {.support_radius = support}};
   auto result = scene<integrator::ExtrapolatedVerlet, Precision>(
-      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, true}}, group<Water>("water", Mobile{}, points(m.of_water, 0.0, 0.7), 0.7 / static_cast<double>(m.of_water)),
-      group<Wall>("wall", Stationary{}, points(m.of_wall, 0.65, 1.0), 0.4 / static_cast<double>(m.of_wall)), interaction<Water, Water>(law), interaction<Wall, Water>(law),
-      interaction<Wall, Wall>(law), summed<Water, Wall>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}}, m.every),
-      summed<Water>(sph::ShearRate<kernel::WendlandC2<2>>{.kernel = {.support_radius = support}}, m.every), material<Water>(eos::Linear{.rest_density = 1.0, .sound_speed_0 = 10.0}, Thinning{0.01}),
+      geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, true}},
+      group<Water>("water", Mobile{}, points(m.of_water, 0.0, 0.7), 0.7 / static_cast<double>(m.of_water)),
+      group<Wall>("wall", Stationary{}, points(m.of_wall, 0.65, 1.0), 0.4 / static_cast<double>(m.of_wall)), interaction<Water, Water>(law),
+      interaction<Wall, Water>(law), interaction<Wall, Wall>(law),
+      summed<Water, Wall>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}}, m.every),
+      summed<Water>(sph::ShearRate<kernel::WendlandC2<2>>{.kernel = {.support_radius = support}}, m.every),
+      material<Water>(eos::Linear{.rest_density = 1.0, .sound_speed_0 = 10.0}, Thinning{0.01}),
       material<Wall>(eos::Linear{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
-  result.template group<Water>().template set<field::Velocity>([](const Vector<2>& x) { return Vector<2>(std::sin(20.0 * x[1]), std::cos(30.0 * x[0])); });
+  result.template group<Water>().template set<field::Velocity>(
+      [](const Vector<2>& x) { return Vector<2>(std::sin(20.0 * x[1]), std::cos(30.0 * x[0])); });
   return result;
 }
 
@@ -97,7 +101,9 @@ double density_error(Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("the density sum of two groups of several blocks in a periodic box is that of a plain loop over all pairs; single precision has six digits") {
+TEST_CASE(
+    "the density sum of two groups of several blocks in a periodic box is that of a plain loop over all pairs; single precision has six "
+    "digits") {
   auto scene = mixture({});
   (void)scene.step_limit();  // evaluates
   CHECK(scene.group<Water>().blocks.size() >= 2);
@@ -168,7 +174,8 @@ TEST_CASE("a summed law with `every` 5 acts at the start and then in steps divis
   const auto make = [&] {
     auto result = scene<integrator::ExtrapolatedVerlet>(
         geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, true}},
-        group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), spacing * spacing),
+        group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}),
+                     spacing * spacing),
         interaction<Water, Water>(Flow{.kernel = {.support_radius = 0.26}}), summed<Water>(Visit{0.26}, 5),
         material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.01}));
     return result;
@@ -208,11 +215,14 @@ double density_lag(int steps) {
   const double support = 2.6 * spacing;
   auto flow = scene<Integrator>(
       geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, true}},
-      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), spacing * spacing),
-      interaction<Water, Water>(Flow{.kernel = {.support_radius = support}}), summed<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}}),
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}),
+                   spacing * spacing),
+      interaction<Water, Water>(Flow{.kernel = {.support_radius = support}}),
+      summed<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}}),
       material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 5.0}, rheology::Constant{.dynamic_viscosity = 0.02}));
   auto& water = flow.template group<Water>();
-  water.template set<field::Velocity>([](const Vector<2>& x) { return Vector<2>(std::sin(k * x[0]) * std::cos(k * x[1]), -std::cos(k * x[0]) * std::sin(k * x[1])); });
+  water.template set<field::Velocity>(
+      [](const Vector<2>& x) { return Vector<2>(std::sin(k * x[0]) * std::cos(k * x[1]), -std::cos(k * x[0]) * std::sin(k * x[1])); });
   flow.run({.until = 0.05, .time_step = 0.05 / steps});
   CHECK(flow.step() == static_cast<std::uint64_t>(steps));
   const auto sums = flow.template find_sums<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}});
@@ -223,7 +233,9 @@ double density_lag(int steps) {
 
 }  // namespace
 
-TEST_CASE("summed in every step, the density at the end of a step is the sum there, to second order or better in the time step; with LAMMPS' half-step state to first order") {
+TEST_CASE(
+    "summed in every step, the density at the end of a step is the sum there, to second order or better in the time step; with LAMMPS' "
+    "half-step state to first order") {
   const double of_100 = density_lag<integrator::ExtrapolatedVerlet>(100), of_200 = density_lag<integrator::ExtrapolatedVerlet>(200);
   CHECK(of_100 < 1e-4);
   CHECK(of_100 > 3.8 * of_200);
@@ -236,16 +248,23 @@ TEST_CASE("summed in every step, the density at the end of a step is the sum the
   CHECK(lammps_100 == doctest::Approx(2.0 * lammps_200).epsilon(0.05).scale(0.0));  // what laws see there is the state of half a step ago
 }
 
-TEST_CASE("FS-1: in a channel with density summation frozen walls keep every bit, hold no force that could work on them, and fill up the sums of the fluid beside them") {
+TEST_CASE(
+    "FS-1: in a channel with density summation frozen walls keep every bit, hold no force that could work on them, and fill up the sums of "
+    "the fluid beside them") {
   const double spacing = 0.05, support = 2.6 * spacing;
   const geometry::Cubic<2> lattice{.spacing = spacing};
   const Flow law{.kernel = {.support_radius = support}};
   auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {0.0, -0.2}, .upper = {0.5, 0.6}, .periodic = {true, false}},
       group<Water>("water", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {0.5, 0.4}}), spacing * spacing),
-      group<Wall>("wall", Frozen<2>{}, geometry::fill(lattice, {.lower = {0.0, -0.15}, .upper = {0.5, 0.55}}, !geometry::Cuboid<2>{.lower = {-1.0, 0.0}, .upper = {1.0, 0.4}}), spacing * spacing),
-      interaction<Water, Water>(law), interaction<Water, Wall>(law), summed<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}}, 3),
-      forced_by<Water>(forcing::Constant<2>{.uniform_acceleration = {{{1.0, 0.0}}}}), material<Water, Wall>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.1}));
+      group<Wall>("wall", Frozen<2>{},
+                  geometry::fill(lattice, {.lower = {0.0, -0.15}, .upper = {0.5, 0.55}},
+                                 !geometry::Cuboid<2>{.lower = {-1.0, 0.0}, .upper = {1.0, 0.4}}),
+                  spacing * spacing),
+      interaction<Water, Water>(law), interaction<Water, Wall>(law),
+      summed<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}}, 3),
+      forced_by<Water>(forcing::Constant<2>{.uniform_acceleration = {{{1.0, 0.0}}}}),
+      material<Water, Wall>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 10.0}, rheology::Constant{.dynamic_viscosity = 0.1}));
   auto& wall = scene.group<Wall>();
   ParticleSource source;
   wall.set<field::Density>([&](const auto&) { return source.between(0.999, 1.001); });
@@ -256,7 +275,8 @@ TEST_CASE("FS-1: in a channel with density summation frozen walls keep every bit
   scene.run({.until = 0.3});
   CHECK(scene.step() > 50);
   const auto after = wall.view();
-  for (std::size_t c = 0; c < before.size(); ++c) CHECK(same_bits(before[c], {after.columns[c].values.begin(), after.columns[c].values.end()}));
+  for (std::size_t c = 0; c < before.size(); ++c)
+    CHECK(same_bits(before[c], {after.columns[c].values.begin(), after.columns[c].values.end()}));
   double least = 2.0, most = 0.0;
   for (const auto& at : scene.find_sums<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}})) {
     least = std::min(least, at.density);
@@ -289,20 +309,34 @@ TEST_CASE("a fluid that thins with shear and has its density summed restarts bit
 TEST_CASE("a summed law that reaches beyond the cut-off of an interaction of its group is refused; so is one that only looks on") {
   const auto make = [](double support) {
     const geometry::Points<2> points{.positions = {{0.0, 0.0}, {0.1, 0.0}}};
-    return scene<integrator::ExtrapolatedVerlet>(geometry::Box<2>::unbounded(), group<Water>("water", Mobile{}, points, 1.0), group<Wall>("wall", Frozen<2>{}, geometry::Points<2>{.positions = {{0.0, 0.3}}}, 1.0),
-                                                 interaction<Water, Water>(Flow{.kernel = {.support_radius = 0.5}}), interaction<Wall, Water>(Flow{.kernel = {.support_radius = 0.4}}),
-                                                 summed<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}}),
-                                                 material<Water, Wall>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0}, rheology::Constant{.dynamic_viscosity = 0.1}));
+    return scene<integrator::ExtrapolatedVerlet>(
+        geometry::Box<2>::unbounded(), group<Water>("water", Mobile{}, points, 1.0),
+        group<Wall>("wall", Frozen<2>{}, geometry::Points<2>{.positions = {{0.0, 0.3}}}, 1.0),
+        interaction<Water, Water>(Flow{.kernel = {.support_radius = 0.5}}),
+        interaction<Wall, Water>(Flow{.kernel = {.support_radius = 0.4}}),
+        summed<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = support}}),
+        material<Water, Wall>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0}, rheology::Constant{.dynamic_viscosity = 0.1}));
   };
   CHECK_NOTHROW((void)make(0.4));
-  CHECK_THROWS_WITH_AS((void)make(0.41), doctest::Contains("summed: support radius must be <= the cut-off of the interaction of wall and water (0.4 m), got 0.41"), ParameterError);
-  CHECK_THROWS_WITH_AS((void)make(0.6), doctest::Contains("summed: support radius must be <= the cut-off of the interaction of water and water (0.5 m), got 0.6"), ParameterError);
-  CHECK_THROWS_WITH_AS((void)(summed<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = -1.0}})), doctest::Contains("kernel::Quartic: support_radius must be finite and > 0 m, got -1"), ParameterError);
+  CHECK_THROWS_WITH_AS(
+      (void)make(0.41),
+      doctest::Contains("summed: support radius must be <= the cut-off of the interaction of wall and water (0.4 m), got 0.41"),
+      ParameterError);
+  CHECK_THROWS_WITH_AS(
+      (void)make(0.6),
+      doctest::Contains("summed: support radius must be <= the cut-off of the interaction of water and water (0.5 m), got 0.6"),
+      ParameterError);
+  CHECK_THROWS_WITH_AS((void)(summed<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = -1.0}})),
+                       doctest::Contains("kernel::Quartic: support_radius must be finite and > 0 m, got -1"), ParameterError);
   auto scene = make(0.4);
-  CHECK_THROWS_WITH_AS((void)scene.find_sums<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = 0.45}}), doctest::Contains("support radius must be <= the cut-off of the interaction of wall and water (0.4 m), got 0.45"), ParameterError);
+  CHECK_THROWS_WITH_AS((void)scene.find_sums<Water>(sph::DensitySum<Kernel>{.kernel = {.support_radius = 0.45}}),
+                       doctest::Contains("support radius must be <= the cut-off of the interaction of wall and water (0.4 m), got 0.45"),
+                       ParameterError);
 }
 
-TEST_CASE("find_sums tells the density around from that of the continuity equation, leaves everything as it is, and does so after a checkpoint and a restart too") {
+TEST_CASE(
+    "find_sums tells the density around from that of the continuity equation, leaves everything as it is, and does so after a checkpoint "
+    "and a restart too") {
   const sph::DensitySum<Kernel> law{.kernel = {.support_radius = 2.6 / 24.0}};
   auto flow = vortex({});
   flow.run({.until = 0.05, .time_step = 5e-4});
@@ -338,10 +372,12 @@ TEST_CASE("find_sums tells the density around from that of the continuity equati
 }
 
 TEST_CASE("find_sums of what depends on the state sees the state between two steps, not that of half a step ago") {
-  // Drops in free shear that grows in time: u = (w y t, 0), no forces between particles at rest density but friction, which a linear u does not feel inside.
+  // Drops in free shear that grows in time: u = (w y t, 0), no forces between particles at rest density but friction,
+  // which a linear u does not feel inside.
   const sph::ShearRate<kernel::WendlandC2<2>> law{.kernel = {.support_radius = 0.26}};
   auto scene = simulation::scene<integrator::Leapfrog>(
-      geometry::Box<2>::unbounded(), group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 0.1}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), 0.01),
+      geometry::Box<2>::unbounded(),
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 0.1}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), 0.01),
       interaction<Water, Water>(sph::WeaklyCompressible<kernel::WendlandC2<2>>{.kernel = {.support_radius = 0.26}}),
       material<Water>(eos::Linear{.rest_density = 1.0, .sound_speed_0 = 1e-6}), forced_by<Water>(forcing::Drag{.coefficient = 0.1}));
   auto& water = scene.group<Water>();

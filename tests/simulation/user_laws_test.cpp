@@ -76,7 +76,8 @@ TEST_CASE("KV-1: creep of one user-written Kelvin-Voigt bond, bead 1 held, again
     auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
         geometry::Box<2>::unbounded(), group<Bead>("bead", Mobile{}, geometry::Points<2>{.positions = {{1.0, 0.0}}}, 1.0),
         group<Post>("post", Frozen<2>{}, geometry::Points<2>{.positions = {{0.0, 0.0}}}, 1.0),
-        bonds<Bead, Post>(user::KelvinVoigt{.k = 1.0, .c = c.damping}, {{0, 0}}), forced_by<Bead>(forcing::Constant<2>{.uniform_acceleration = {{{1.0, 0.0}}}}));
+        bonds<Bead, Post>(user::KelvinVoigt{.k = 1.0, .c = c.damping}, {{0, 0}}),
+        forced_by<Bead>(forcing::Constant<2>{.uniform_acceleration = {{{1.0, 0.0}}}}));
     scene.run({.until = 1.0, .time_step = 1e-3});
     CHECK(std::fabs(scene.group<Bead>().positions()[0][0] - 1.0 - c.at_1) <= 1e-6);
     scene.run({.until = 5.0, .time_step = 1e-3});
@@ -91,8 +92,9 @@ TEST_CASE("NASG-0: the user-written Noble-Abel stiffened gas of liquid water giv
   struct State {
     double pressure, density, energy, temperature, sound_speed;
   };
-  for (const State& s : {State{101325.0, 1000.0, 314585.143, 347.40275, 1570.7997}, State{1e9, 1000.0, 2098614.884, 841.59382, 2444.8682},
-                         State{101325.0, 1100.0, -85622.18951, 254.24031, 1669.2545}, State{5e6, 1050.731727, 109528.4114, 300.0, 1619.9483}}) {
+  for (const State& s :
+       {State{101325.0, 1000.0, 314585.143, 347.40275, 1570.7997}, State{1e9, 1000.0, 2098614.884, 841.59382, 2444.8682},
+        State{101325.0, 1100.0, -85622.18951, 254.24031, 1669.2545}, State{5e6, 1050.731727, 109528.4114, 300.0, 1619.9483}}) {
     CAPTURE(s.pressure);
     const double energy = water.specific_energy(s.pressure, s.density);
     CHECK(std::fabs(energy - s.energy) <= 3e-3);  // [J/kg]: the printed digits of the density leave 2e-3
@@ -107,8 +109,10 @@ TEST_CASE("a gas at uniform pressure under a user-written thermal equation of st
   using Law = sph::WeaklyCompressible<kernel::Lucy<2>>;
   auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {0.5, 0.5}, .periodic = {true, true}},
-      group<Water>("gas", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {0.5, 0.5}}), spacing * spacing),
-      interaction<Water, Water>(Law{.kernel = {.support_radius = 2.6 * spacing}}), material<Water>(user::Nasg{.gamma = 1.4, .p_inf = 0.0, .b = 0.0, .q = 0.0, .cv = 1.0}));
+      group<Water>("gas", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {0.5, 0.5}}),
+                   spacing * spacing),
+      interaction<Water, Water>(Law{.kernel = {.support_radius = 2.6 * spacing}}),
+      material<Water>(user::Nasg{.gamma = 1.4, .p_inf = 0.0, .b = 0.0, .q = 0.0, .cv = 1.0}));
   auto& gas = scene.group<Water>();
   gas.set<field::Density>([](const auto&) { return 1.0; });
   gas.set<field::SpecificEnergy>([](const auto&) { return 2.5; });  // p = 1, c = sqrt(1.4)
@@ -126,8 +130,10 @@ TEST_CASE("VISC-0: the user-written Arrhenius law; in a scene the viscosity of a
   const double spacing = 0.1;
   auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, true}},
-      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}), spacing * spacing),
-      interaction<Water, Water>(Flow{.kernel = {.support_radius = 2.6 * spacing}}), material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0}, law));
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = spacing}, {.lower = {0.0, 0.0}, .upper = {1.0, 1.0}}),
+                   spacing * spacing),
+      interaction<Water, Water>(Flow{.kernel = {.support_radius = 2.6 * spacing}}),
+      material<Water>(eos::Tait{.rest_density = 1.0, .sound_speed_0 = 1.0}, law));
   auto& water = scene.group<Water>();
   water.set<field::Density>([](const auto&) { return 1.0; });
   water.set<field::Temperature>([](const Vector<2>& x) { return x[0] < 0.5 ? 295.0 : 331.0036; });

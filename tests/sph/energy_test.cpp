@@ -19,7 +19,8 @@ geometry::Points<Dim> at_random(std::size_t count, ParticleSource& source) {
   return points;
 }
 
-/// sum of m (v . dv/dt + de/dt) over two fluids of random particles in a periodic box, as a fraction of the sum of m (|v| |dv/dt| + |de/dt|).
+/// sum of m (v . dv/dt + de/dt) over two fluids of random particles in a periodic box, as a fraction of the sum of
+/// m (|v| |dv/dt| + |de/dt|).
 template <int Dim, class V>
 double energy_gained(const V& viscosity) {
   ParticleSource source;
@@ -28,8 +29,9 @@ double energy_gained(const V& viscosity) {
   periodic.fill(true);
   auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<Dim>{.lower = Vector<Dim>::Zero(), .upper = Vector<Dim>::Constant(1.0), .periodic = periodic},
-      group<Water>("light", Mobile{}, at_random<Dim>(150, source), 1.0), group<Solid>("heavy", Mobile{}, at_random<Dim>(90, source), 3.7), interaction<Water, Water>(law),
-      interaction<Solid, Water>(law), interaction<Solid, Solid>(law), material<Water>(eos::IdealGas{}, rheology::Constant{.dynamic_viscosity = 20.0}),
+      group<Water>("light", Mobile{}, at_random<Dim>(150, source), 1.0), group<Solid>("heavy", Mobile{}, at_random<Dim>(90, source), 3.7),
+      interaction<Water, Water>(law), interaction<Solid, Water>(law), interaction<Solid, Solid>(law),
+      material<Water>(eos::IdealGas{}, rheology::Constant{.dynamic_viscosity = 20.0}),
       material<Solid>(eos::IdealGas{.heat_capacity_ratio = 1.1}, rheology::Constant{.dynamic_viscosity = 70.0}));
   scene.engine().for_each_group([&](auto& g) {
     g.template set<field::Density>([&](const auto&) { return source.between(150.0, 400.0); });
@@ -77,14 +79,17 @@ constexpr double rho = 2.0, support = 2.6, second_moment = 1.0061;  // of the sq
 template <class Law, class... Material>
 auto lattice(const Law& law, const Material&... laws) {
   return scene<integrator::ExtrapolatedVerlet>(
-      geometry::Box<2>::unbounded(), group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 1.0}, {.lower = {0.0, 0.0}, .upper = {11.0, 11.0}}), rho),
+      geometry::Box<2>::unbounded(),
+      group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 1.0}, {.lower = {0.0, 0.0}, .upper = {11.0, 11.0}}),
+                   rho),
       interaction<Water, Water>(law), material<Water>(laws...));
 }
 
 }  // namespace
 
 TEST_CASE("compression heats and expansion cools: de/dt = p/rho^2 drho/dt, with the divergence of the lattice") {
-  auto scene = lattice(sph::Compressible<kernel::Lucy<2>>{.kernel = {.support_radius = support}}, eos::IdealGas{.heat_capacity_ratio = 1.4});
+  auto scene =
+      lattice(sph::Compressible<kernel::Lucy<2>>{.kernel = {.support_radius = support}}, eos::IdealGas{.heat_capacity_ratio = 1.4});
   auto& gas = scene.group<Water>();
   gas.set<field::Density>([](const auto&) { return rho; });
   gas.set<field::SpecificEnergy>([](const auto&) { return 5.0; });  // p = 0.4 rho e = 4 Pa, p/rho = 2
@@ -101,7 +106,8 @@ TEST_CASE("compression heats and expansion cools: de/dt = p/rho^2 drho/dt, with 
 TEST_CASE("friction of a shear flow heats by nu gamma^2, whichever way it shears") {
   constexpr double mu = 0.7;
   for (const double gamma : {-0.5, 0.5}) {
-    auto scene = lattice(sph::Compressible<kernel::Lucy<2>, viscosity::Morris<>>{.kernel = {.support_radius = support}}, eos::Tait{.rest_density = rho, .sound_speed_0 = 10.0},
+    auto scene = lattice(sph::Compressible<kernel::Lucy<2>, viscosity::Morris<>>{.kernel = {.support_radius = support}},
+                         eos::Tait{.rest_density = rho, .sound_speed_0 = 10.0},
                          rheology::Constant{.dynamic_viscosity = mu});  // p = 0 at rest density
     auto& water = scene.group<Water>();
     water.set<field::Velocity>([&](const Vector<2>& x) { return Vector<2>(gamma * x[1], 0.0); });
@@ -113,7 +119,8 @@ TEST_CASE("friction of a shear flow heats by nu gamma^2, whichever way it shears
 
 TEST_CASE("a shock's viscosity heats where particles meet and does nothing where they part; the quadratic term adds heat") {
   const auto heating = [](double rate, double alpha, double beta) {
-    auto scene = lattice(sph::Compressible<kernel::Lucy<2>, viscosity::ShockCapturing>{.kernel = {.support_radius = support}, .viscosity = {.alpha = alpha, .beta = beta}},
+    auto scene = lattice(sph::Compressible<kernel::Lucy<2>, viscosity::ShockCapturing>{.kernel = {.support_radius = support},
+                                                                                       .viscosity = {.alpha = alpha, .beta = beta}},
                          eos::Tait{.rest_density = rho, .sound_speed_0 = 10.0});
     auto& water = scene.template group<Water>();
     water.template set<field::Velocity>([&](const Vector<2>& x) { return Vector<2>(rate * x); });
@@ -166,12 +173,13 @@ Exchange<Mean> exchange(double hot, double cold, double kappa_hot, double kappa_
   auto pair = scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>::unbounded(), group<Hot>("hot", Stationary{}, geometry::Points<2>{.positions = {{0.0, 0.0}}}, 0.5),
       group<Cold>("cold", Stationary{}, geometry::Points<2>{.positions = {{0.6, 0.8}}}, 2.0),
-      interaction<Hot, Cold>(sph::HeatConduction<kernel::Lucy<2>, Mean>{.kernel = {.support_radius = support}}), material<Hot>(Caloric{3.0}, Conductor{kappa_hot}, Solidity{1.3}),
-      material<Cold>(Caloric{7.0}, Conductor{kappa_cold}, Solidity{0.7}));
+      interaction<Hot, Cold>(sph::HeatConduction<kernel::Lucy<2>, Mean>{.kernel = {.support_radius = support}}),
+      material<Hot>(Caloric{3.0}, Conductor{kappa_hot}, Solidity{1.3}), material<Cold>(Caloric{7.0}, Conductor{kappa_cold}, Solidity{0.7}));
   pair.template group<Hot>().template set<field::SpecificEnergy>([&](const auto&) { return 3.0 * hot; });
   pair.template group<Cold>().template set<field::SpecificEnergy>([&](const auto&) { return 7.0 * cold; });
   (void)pair.step_limit();
-  return {0.5 * pair.template group<Hot>().template get<field::SpecificEnergyRate>()[0], 2.0 * pair.template group<Cold>().template get<field::SpecificEnergyRate>()[0]};
+  return {0.5 * pair.template group<Hot>().template get<field::SpecificEnergyRate>()[0],
+          2.0 * pair.template group<Cold>().template get<field::SpecificEnergyRate>()[0]};
 }
 
 }  // namespace
@@ -185,7 +193,9 @@ TEST_CASE("HX-0: one pair: what one gains the other loses, to the last bit; heat
   CHECK(exchange<ArithmeticMean>(512.0, 512.0, 0.6, 0.0255).of_cold == 0.0);
 }
 
-TEST_CASE("HX-0: the means of two conductivities: alike for equal ones; else theirs stand as 4ab/(a + b)^2; an insulator passes nothing through the harmonic one") {
+TEST_CASE(
+    "HX-0: the means of two conductivities: alike for equal ones; else theirs stand as 4ab/(a + b)^2; an insulator passes nothing through "
+    "the harmonic one") {
   const auto harmonic = [](double a, double b) { return exchange<HarmonicMean>(400.0, 300.0, a, b).of_cold; };
   const auto arithmetic = [](double a, double b) { return exchange<ArithmeticMean>(400.0, 300.0, a, b).of_cold; };
   CHECK(harmonic(0.6, 0.6) == doctest::Approx(arithmetic(0.6, 0.6)).epsilon(1e-14));
@@ -198,7 +208,8 @@ TEST_CASE("HX-0: the means of two conductivities: alike for equal ones; else the
 
 TEST_CASE("conduction on a lattice is Fourier's: nothing in a linear temperature, kappa/rho T'' in a parabola") {
   const auto rate = [](const auto& temperature) {
-    auto scene = lattice(sph::HeatConduction<kernel::Lucy<2>>{.kernel = {.support_radius = support}}, Caloric{3.0}, Conductor{0.8}, Solidity{rho});
+    auto scene =
+        lattice(sph::HeatConduction<kernel::Lucy<2>>{.kernel = {.support_radius = support}}, Caloric{3.0}, Conductor{0.8}, Solidity{rho});
     scene.template group<Water>().template set<field::SpecificEnergy>([&](const Vector<2>& x) { return 3.0 * temperature(x[0] - 5.5); });
     (void)scene.step_limit();
     return scene.template group<Water>().template get<field::SpecificEnergyRate>()[60];
@@ -213,8 +224,9 @@ TEST_CASE("two halves of a periodic bar: heat is kept, goes from hot to cold onl
   auto bar = scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {20.0, 6.0}, .periodic = {true, true}},
       group<Hot>("hot", Stationary{}, geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {10.0, 6.0}}), 2.0),
-      group<Cold>("cold", Stationary{}, geometry::fill(lattice, {.lower = {10.0, 0.0}, .upper = {20.0, 6.0}}), 0.3), interaction<Hot, Hot>(law), interaction<Hot, Cold>(law),
-      interaction<Cold, Cold>(law), material<Hot>(Caloric{3.0}, Conductor{0.6}, Solidity{2.0}), material<Cold>(Caloric{7.0}, Conductor{0.05}, Solidity{0.3}));
+      group<Cold>("cold", Stationary{}, geometry::fill(lattice, {.lower = {10.0, 0.0}, .upper = {20.0, 6.0}}), 0.3),
+      interaction<Hot, Hot>(law), interaction<Hot, Cold>(law), interaction<Cold, Cold>(law),
+      material<Hot>(Caloric{3.0}, Conductor{0.6}, Solidity{2.0}), material<Cold>(Caloric{7.0}, Conductor{0.05}, Solidity{0.3}));
   bar.group<Hot>().set<field::SpecificEnergy>([](const auto&) { return 3.0 * 400.0; });
   bar.group<Cold>().set<field::SpecificEnergy>([](const auto&) { return 7.0 * 300.0; });
   const auto heat = [&](const auto& group) {
@@ -226,8 +238,10 @@ TEST_CASE("two halves of a periodic bar: heat is kept, goes from hot to cold onl
   bar.every(1.0, [&](const auto& scene) {
     rises = std::max(rises, heat(scene.template group<Hot>()) - of_hot);
     of_hot = heat(scene.template group<Hot>());
-    for (const double e : scene.template group<Hot>().template get<field::SpecificEnergy>()) hottest = std::max(hottest, e / 3.0), coldest = std::min(coldest, e / 3.0);
-    for (const double e : scene.template group<Cold>().template get<field::SpecificEnergy>()) hottest = std::max(hottest, e / 7.0), coldest = std::min(coldest, e / 7.0);
+    for (const double e : scene.template group<Hot>().template get<field::SpecificEnergy>())
+      hottest = std::max(hottest, e / 3.0), coldest = std::min(coldest, e / 3.0);
+    for (const double e : scene.template group<Cold>().template get<field::SpecificEnergy>())
+      hottest = std::max(hottest, e / 7.0), coldest = std::min(coldest, e / 7.0);
   });
   bar.run({.until = 400.0});
   CHECK(bar.step() > 50);

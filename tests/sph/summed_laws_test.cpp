@@ -65,9 +65,10 @@ geometry::Points<Dim> block(int side, double shake) {
 /// An open block of fluid: free surfaces, edges and corners all round.
 template <int Dim>
 auto drop(int side, double shake, double support_radius = support) {
-  auto result = scene<integrator::ExtrapolatedVerlet>(
-      geometry::Box<Dim>::unbounded(), group<Water>("water", Mobile{}, block<Dim>(side, shake), rho),
-      interaction<Water, Water>(Inviscid<Dim>{.kernel = {.support_radius = support_radius}}), material<Water>(eos::Tait{.rest_density = rho, .sound_speed_0 = 1.0}));
+  auto result =
+      scene<integrator::ExtrapolatedVerlet>(geometry::Box<Dim>::unbounded(), group<Water>("water", Mobile{}, block<Dim>(side, shake), rho),
+                                            interaction<Water, Water>(Inviscid<Dim>{.kernel = {.support_radius = support_radius}}),
+                                            material<Water>(eos::Tait{.rest_density = rho, .sound_speed_0 = 1.0}));
   return result;
 }
 
@@ -94,14 +95,17 @@ TEST_CASE("Shepard's density wipes out a checkerboard of densities, and keeps a 
   const auto make = [](const auto& density) {
     auto result = scene<integrator::ExtrapolatedVerlet>(
         geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {40.0, 8.0}, .periodic = {true, true}},
-        group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 1.0}, {.lower = {0.0, 0.0}, .upper = {40.0, 8.0}}), rho),
-        interaction<Water, Water>(Inviscid<2>{.kernel = {.support_radius = support}}), summed<Water>(sph::ShepardDensity<kernel::Lucy<2>>{.kernel = {.support_radius = support}}),
+        group<Water>("water", Mobile{}, geometry::fill(geometry::Cubic<2>{.spacing = 1.0}, {.lower = {0.0, 0.0}, .upper = {40.0, 8.0}}),
+                     rho),
+        interaction<Water, Water>(Inviscid<2>{.kernel = {.support_radius = support}}),
+        summed<Water>(sph::ShepardDensity<kernel::Lucy<2>>{.kernel = {.support_radius = support}}),
         material<Water>(eos::Tait{.rest_density = rho, .sound_speed_0 = 1.0}));
     result.template group<Water>().template set<field::Density>(density);
     (void)result.step_limit();  // evaluates
     return result;
   };
-  const auto checkerboard = make([](const Vector<2>& x) { return (static_cast<int>(x[0]) + static_cast<int>(x[1])) % 2 == 0 ? 1.05 * rho : 0.95 * rho; });
+  const auto checkerboard =
+      make([](const Vector<2>& x) { return (static_cast<int>(x[0]) + static_cast<int>(x[1])) % 2 == 0 ? 1.05 * rho : 0.95 * rho; });
   const auto& density = checkerboard.group<Water>().get<field::Density>();
   const auto [least, most] = std::minmax_element(density.begin(), density.end());
   CHECK(*most - *least < 0.03 * 0.1 * rho);
@@ -111,7 +115,8 @@ TEST_CASE("Shepard's density wipes out a checkerboard of densities, and keeps a 
   const auto slow = make([&](const Vector<2>& x) { return wave(x[0]); });
   double error = 0.0;
   const auto& group = slow.group<Water>();
-  for (std::size_t i = 0; i < group.size(); ++i) error = std::max(error, std::fabs(group.get<field::Density>()[i] - wave(group.positions()[i][0])));
+  for (std::size_t i = 0; i < group.size(); ++i)
+    error = std::max(error, std::fabs(group.get<field::Density>()[i] - wave(group.positions()[i][0])));
   CHECK(error < 0.03 * 0.05 * rho);
 }
 
@@ -137,7 +142,9 @@ double shear_rate_error(const Gradient<Dim>& gradient, double expected, double s
 
 }  // namespace
 
-TEST_CASE("the shear rate of a linear velocity field is exact at every particle, on free surfaces, edges and corners too: simple shear, rotation, stretching") {
+TEST_CASE(
+    "the shear rate of a linear velocity field is exact at every particle, on free surfaces, edges and corners too: simple shear, "
+    "rotation, stretching") {
   Gradient<2> shear, rotation, stretching;
   shear << 0.0, -3.0, 0.0, 0.0;
   rotation << 0.0, -2.0, 2.0, 0.0;
@@ -159,18 +166,22 @@ TEST_CASE("the shear rate of a linear velocity field is exact at every particle,
     CHECK(shear_rate_error<3>(rotation_3d, 0.0, shake) < 1e-12);
     CHECK(shear_rate_error<3>(stretching_3d, std::sqrt(12.0), shake) < 1e-12);  // sqrt(2 (4 + 1 + 1))
     CHECK(shear_rate_error<3>(shear_3d + rotation_3d, 3.0, shake) < 1e-12);
-    CHECK(shear_rate_error<3>(shear_3d, 3.0, shake, 5.0) < 1e-12);  // many neighbours: the moment at a corner is near 1/8 of the unit matrix
+    CHECK(shear_rate_error<3>(shear_3d, 3.0, shake, 5.0) <
+          1e-12);  // many neighbours: the moment at a corner is near 1/8 of the unit matrix
   }
 }
 
-TEST_CASE("the shear rate next to a frozen wall that slides is exact: the wall's velocity counts; a few particles in a row give a finite one") {
+TEST_CASE(
+    "the shear rate next to a frozen wall that slides is exact: the wall's velocity counts; a few particles in a row give a finite one") {
   const geometry::Cubic<2> lattice{.spacing = 1.0};
   const Inviscid<2> law{.kernel = {.support_radius = support}};
   auto scene = simulation::scene<integrator::ExtrapolatedVerlet>(
       geometry::Box<2>{.lower = {0.0, -1.0}, .upper = {10.0, 7.0}, .periodic = {true, false}},
       group<Water>("water", Mobile{}, geometry::fill(lattice, {.lower = {0.0, 0.0}, .upper = {10.0, 6.0}}), rho),
-      group<Wall>("wall", Frozen<2>{.wall_velocity = {-0.5 * 3.0, 0.0}}, geometry::fill(lattice, {.lower = {0.0, -1.0}, .upper = {10.0, 0.0}}), rho),
-      interaction<Water, Water>(law), interaction<Water, Wall>(law), summed<Water>(sph::ShearRate<kernel::Lucy<2>>{.kernel = {.support_radius = support}}),
+      group<Wall>("wall", Frozen<2>{.wall_velocity = {-0.5 * 3.0, 0.0}},
+                  geometry::fill(lattice, {.lower = {0.0, -1.0}, .upper = {10.0, 0.0}}), rho),
+      interaction<Water, Water>(law), interaction<Water, Wall>(law),
+      summed<Water>(sph::ShearRate<kernel::Lucy<2>>{.kernel = {.support_radius = support}}),
       material<Water, Wall>(eos::Tait{.rest_density = rho, .sound_speed_0 = 1.0}));
   auto& water = scene.group<Water>();
   water.set<field::Velocity>([](const Vector<2>& x) { return Vector<2>(3.0 * x[1], 0.0); });
@@ -180,8 +191,11 @@ TEST_CASE("the shear rate next to a frozen wall that slides is exact: the wall's
   CHECK(error < 3e-12);
 
   auto row = simulation::scene<integrator::ExtrapolatedVerlet>(
-      geometry::Box<3>::unbounded(), group<Water>("water", Mobile{}, geometry::Points<3>{.positions = {{0.0, 0.0, 0.0}, {1.0, 0.5, 0.0}, {2.0, 1.0, 0.0}, {90.0, 0.0, 0.0}}}, rho),
-      interaction<Water, Water>(Inviscid<3>{.kernel = {.support_radius = support}}), material<Water>(eos::Tait{.rest_density = rho, .sound_speed_0 = 1.0}));
+      geometry::Box<3>::unbounded(),
+      group<Water>("water", Mobile{},
+                   geometry::Points<3>{.positions = {{0.0, 0.0, 0.0}, {1.0, 0.5, 0.0}, {2.0, 1.0, 0.0}, {90.0, 0.0, 0.0}}}, rho),
+      interaction<Water, Water>(Inviscid<3>{.kernel = {.support_radius = support}}),
+      material<Water>(eos::Tait{.rest_density = rho, .sound_speed_0 = 1.0}));
   row.group<Water>().set<field::Velocity>([](const Vector<3>& x) { return Vector<3>(x[1], x[0], 0.0); });
   const auto rates = row.find_sums<Water>(sph::ShearRate<kernel::Lucy<3>>{.kernel = {.support_radius = support}});
   for (std::size_t i = 0; i < 3; ++i) CHECK((rates[i].shear_rate > 0.0 && rates[i].shear_rate < 10.0));

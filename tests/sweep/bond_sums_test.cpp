@@ -60,11 +60,13 @@ struct Forces {
 };
 
 template <int Dim, class Law>
-void add(Forces<Dim>& forces, std::size_t i, const Vector<Dim>& apart, const Vector<Dim>& relative_velocity, const Bond& bond, const Law& law) {
+void add(Forces<Dim>& forces, std::size_t i, const Vector<Dim>& apart, const Vector<Dim>& relative_velocity, const Bond& bond,
+         const Law& law) {
   const double length = apart.norm();
   if (!(length > 0.0)) return;
   double tension = 0.0;
-  if constexpr (bond::UsesVelocity<Law>) tension = law.tension(bond::MovingStretch<double>{{length, bond.rest_length}, apart.dot(relative_velocity) / length});
+  if constexpr (bond::UsesVelocity<Law>)
+    tension = law.tension(bond::MovingStretch<double>{{length, bond.rest_length}, apart.dot(relative_velocity) / length});
   else tension = law.tension(bond::Stretch<double>{length, bond.rest_length});
   forces.total[i] -= bond.weight * tension / length * apart;
   forces.absolute[i] += std::fabs(bond.weight * tension);
@@ -112,7 +114,8 @@ test::Cloud<Dim> in_packs(const Group<Dim>& own, const Group<Dim>& others, bool 
   std::size_t spoilt = 0;
   for (std::size_t i = 0; i < own.positions.size(); ++i) {
     const sweep::BondRecords records{own_records.data() + i * Own::stride, other_records.data()};
-    plus(i * Sums::stride, 1.0, sweep::sum_bonds<Dim, Periodic, Own::numbers == Dim && Others::numbers == Dim>(records, list.of(i), periods, react, law));
+    plus(i * Sums::stride, 1.0, sweep::sum_bonds < Dim, Periodic,
+         Own::numbers == Dim && Others::numbers == Dim > (records, list.of(i), periods, react, law));
   }
   for (std::size_t i = 0; i < own.positions.size(); ++i) {
     View<Dim, Lanes, Fields<field::Force, field::DensityRate>> nothing;
@@ -154,7 +157,9 @@ void check_law(const Law& law) {
   CAPTURE(Dim);
   CAPTURE(Periodic);
   constexpr std::uint32_t count = 40, others = 23;
-  using Bare = particles::Records<Dim, std::conditional_t<bond::UsesVelocity<Law>, Fields<field::Position, field::Velocity>, Fields<field::Position>>>;
+  using Bare =
+      particles::Records<Dim,
+                         std::conditional_t<bond::UsesVelocity<Law>, Fields<field::Position, field::Velocity>, Fields<field::Position>>>;
   using Wide = particles::Records<Dim, Fields<field::Position, field::Velocity, field::Density>>;
   std::array<bool, Dim> faces;
   faces.fill(Periodic);
@@ -162,7 +167,8 @@ void check_law(const Law& law) {
   auto own = at_random<Dim>(count, 1), other = at_random<Dim>(others, 3);
   other.positions[1] = own.positions[3];  // a bond of length zero between the groups
   if (Periodic)
-    for (std::size_t i = 5; i < count; i += 3) own.positions[i] += Vector<Dim>::Constant(static_cast<double>(i % 7) - 3.0);  // anywhere outside the box
+    for (std::size_t i = 5; i < count; i += 3)
+      own.positions[i] += Vector<Dim>::Constant(static_cast<double>(i % 7) - 3.0);  // anywhere outside the box
   for (const bool weighted : {false, true}) {
     const auto within = net(count, count, true, weighted), across = net(count, others, false, weighted);
     for (const std::vector<std::size_t>& bounds : {std::vector<std::size_t>{0, count}, {0, 1, 7, 30, count}}) {
@@ -172,7 +178,8 @@ void check_law(const Law& law) {
       const auto bare = in_packs<Dim, Periodic, Bare, Bare>(own, own, true, false, within, blocks, law);
       check_equal<Dim>(bare, expected);
       check_equal<Dim>(in_packs<Dim, Periodic, Wide, Wide>(own, own, true, false, within, blocks, law), expected);
-      check_equal<Dim>(in_packs<Dim, Periodic, Bare, Wide>(own, other, false, false, across, blocks, law), one_by_one<Dim>(own, other, false, false, across, box, law));
+      check_equal<Dim>(in_packs<Dim, Periodic, Bare, Wide>(own, other, false, false, across, blocks, law),
+                       one_by_one<Dim>(own, other, false, false, across, box, law));
       Vector<Dim> momentum = Vector<Dim>::Zero();
       double all = 0.0;
       for (std::size_t i = 0; i < count; ++i) {
@@ -181,7 +188,8 @@ void check_law(const Law& law) {
       }
       CHECK(momentum.norm() < 1e-15 * all);
     }
-    check_equal<Dim>(in_packs<Dim, Periodic, Wide, Bare>(other, own, false, true, across, Blocks(others), law), one_by_one<Dim>(other, own, false, true, across, box, law));
+    check_equal<Dim>(in_packs<Dim, Periodic, Wide, Bare>(other, own, false, true, across, Blocks(others), law),
+                     one_by_one<Dim>(other, own, false, true, across, box, law));
   }
 }
 
@@ -207,7 +215,8 @@ TEST_CASE("KV-4: spring and dashpot pull the two ends of a bond alike, exactly, 
   using Moving = particles::Records<3, Fields<field::Position, field::Velocity>>;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto group = at_random<3>(5, seed);
-    const auto forces = in_packs<3, false, Moving, Moving>(group, group, true, false, {{1, 2, 0.1}}, Blocks(5), bond::KelvinVoigt{.stiffness = 1.0, .damping = 0.7});
+    const auto forces = in_packs<3, false, Moving, Moving>(group, group, true, false, {{1, 2, 0.1}}, Blocks(5),
+                                                           bond::KelvinVoigt{.stiffness = 1.0, .damping = 0.7});
     CHECK(forces[1] == -forces[2]);
     CHECK(forces[1].norm() > 0.0);
     const Vector<3> apart = group.positions[1] - group.positions[2], along = apart / apart.norm();
@@ -222,8 +231,10 @@ TEST_CASE("a Kelvin-Voigt bond without damping pulls exactly as a spring, which 
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto group = at_random<3>(7, seed);
     const auto spring = in_packs<3, false, Still, Still>(group, group, true, false, list, Blocks(7), bond::Harmonic{.stiffness = 7.0});
-    CHECK(in_packs<3, false, Moving, Moving>(group, group, true, false, list, Blocks(7), bond::KelvinVoigt{.stiffness = 7.0, .damping = 0.0}) == spring);
-    CHECK(in_packs<3, false, Moving, Moving>(group, group, true, false, list, Blocks(7), bond::KelvinVoigt{.stiffness = 7.0, .damping = 0.01}) != spring);
+    CHECK(in_packs<3, false, Moving, Moving>(group, group, true, false, list, Blocks(7),
+                                             bond::KelvinVoigt{.stiffness = 7.0, .damping = 0.0}) == spring);
+    CHECK(in_packs<3, false, Moving, Moving>(group, group, true, false, list, Blocks(7),
+                                             bond::KelvinVoigt{.stiffness = 7.0, .damping = 0.01}) != spring);
   }
 }
 TEST_CASE("a particle without bonds feels nothing, exactly") {

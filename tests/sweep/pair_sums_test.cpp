@@ -119,7 +119,8 @@ struct Sample {
           if (image == test::Image<Dim>{i, {}}) return;
           test::Particle<Dim> other = particles[j];
           for (int d = 0; d < Dim; ++d)
-            if (const int boxes = image.second[static_cast<std::size_t>(d)]; boxes != 0) other.position[d] += boxes * (box.upper[d] - box.lower[d]);
+            if (const int boxes = image.second[static_cast<std::size_t>(d)]; boxes != 0)
+              other.position[d] += boxes * (box.upper[d] - box.lower[d]);
           View<Dim, double, Writes> term{};
           (law.add(test::pair_of<Dim>(particles[i], other), particles[i], other, term), ...);
           const auto terms = numbers(term);
@@ -207,7 +208,8 @@ constexpr double support = 0.31;
 
 template <int Dim, class V = viscosity::None, class D = diffusion::None, class C = tensile::None>
 auto flow(V v = {}, D d = {}, C c = {}) {
-  return sph::WeaklyCompressible<kernel::WendlandC2<Dim>, V, D, C>{.kernel = {.support_radius = support}, .viscosity = v, .diffusion = d, .tensile = c};
+  return sph::WeaklyCompressible<kernel::WendlandC2<Dim>, V, D, C>{
+      .kernel = {.support_radius = support}, .viscosity = v, .diffusion = d, .tensile = c};
 }
 constexpr viscosity::Artificial artificial{.alpha = 0.5, .sound_speed = 20.0};
 constexpr viscosity::ShockCapturing shock_capturing{.alpha = 0.5, .beta = 1.0};
@@ -278,9 +280,12 @@ void check_potentials(int side) {
   const auto make = [&](const auto& faces) { return near_lattice<Dim>(faces, side); };
   for (const double cutoff : {1.12 * 0.9 * spacing, 2.5 * spacing}) {
     const auto law = sweep::as_pair_law(potential::LennardJones{.energy_scale = 2.0, .diameter = 0.9 * spacing, .cutoff = cutoff});
-    for_each_sample<Dim>(make, [&](const Sample<Dim>& sample) { CHECK(difference(sample.in_packs(3, law), sample.one_by_one(law)) < 1e-12); });
+    for_each_sample<Dim>(make,
+                         [&](const Sample<Dim>& sample) { CHECK(difference(sample.in_packs(3, law), sample.one_by_one(law)) < 1e-12); });
     const auto of_both = flow<Dim>(artificial);
-    for_each_sample<Dim>(make, [&](const Sample<Dim>& sample) { CHECK(difference(sample.in_packs(3, of_both, law), sample.one_by_one(of_both, law)) < 1e-12); });
+    for_each_sample<Dim>(make, [&](const Sample<Dim>& sample) {
+      CHECK(difference(sample.in_packs(3, of_both, law), sample.one_by_one(of_both, law)) < 1e-12);
+    });
   }
 }
 
@@ -303,7 +308,8 @@ void check_momentum(const Law&... law) {
                          for (std::size_t d = 0; d < Dim; ++d) {
                            double momentum = 0.0, all = 0.0;
                            for (std::size_t i = 0; i < sample.particles.size(); ++i) {
-                             const double mass = (std::is_same_v<typename Law::writes, Fields<field::Force>> && ...) ? 1.0 : sample.particles[i].mass;
+                             const double mass =
+                                 (std::is_same_v<typename Law::writes, Fields<field::Force>> && ...) ? 1.0 : sample.particles[i].mass;
                              momentum += mass * sums.total[i][d];
                              all += mass * terms.absolute[i][d];
                            }
@@ -374,7 +380,8 @@ TEST_CASE("two groups: each sums over the other's particles at its own end, and 
     const auto count = static_cast<std::uint32_t>(other.size());
     const Blocks blocks(own.size());
     neighbours::PairList pairs;
-    pairs.build<3>(blocks, own, grid, law.cutoff(), 0.0, {false, count, count + static_cast<std::uint32_t>(Blocks::far_rows), {}}, {}, Lanes::width);
+    pairs.build<3>(blocks, own, grid, law.cutoff(), 0.0, {false, count, count + static_cast<std::uint32_t>(Blocks::far_rows), {}}, {},
+                   Lanes::width);
     std::vector<std::vector<double>> result;
     for (std::size_t i = 0; i < own.size(); ++i) {
       View<3, Lanes, decltype(law)::writes> lanes;

@@ -32,11 +32,14 @@ TEST_CASE("of all bounds the smallest one counts, that of stability among those 
 TEST_CASE("a bound that is not a number, or negative, is refused and its law named; so are the rates that bounds are made of") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   StepLimit limit;
-  CHECK_THROWS_WITH_AS(limit.resolve(nan, "acceleration"), "bound of the time step by acceleration must be >= 0 s, got nan", ParameterError);
+  CHECK_THROWS_WITH_AS(limit.resolve(nan, "acceleration"), "bound of the time step by acceleration must be >= 0 s, got nan",
+                       ParameterError);
   CHECK_THROWS_WITH_AS(limit.require_below(nan, "sound"), "bound of the time step by sound must be >= 0 s, got nan", ParameterError);
   CHECK_THROWS_WITH_AS(limit.require_below(-0.5, "sound"), "bound of the time step by sound must be >= 0 s, got -0.5", ParameterError);
-  CHECK_THROWS_WITH_AS(limit.damp(nan, 1.0, "viscosity"), "rate by which viscosity bounds the time step must be >= 0 1/s, got nan", ParameterError);
-  CHECK_THROWS_WITH_AS(limit.oscillate(-1.0, 2.0, "pair potential"), "rate by which pair potential bounds the time step must be >= 0 1/s^2, got -1", ParameterError);
+  CHECK_THROWS_WITH_AS(limit.damp(nan, 1.0, "viscosity"), "rate by which viscosity bounds the time step must be >= 0 1/s, got nan",
+                       ParameterError);
+  CHECK_THROWS_WITH_AS(limit.oscillate(-1.0, 2.0, "pair potential"),
+                       "rate by which pair potential bounds the time step must be >= 0 1/s^2, got -1", ParameterError);
   CHECK_NOTHROW(limit.require_below(infinite, "nothing at all"));
   CHECK(limit.time_step == infinite);
   CHECK(limit.bound_by == "nothing");

@@ -28,7 +28,8 @@ template <class K, class Lattice>
 Rates fastest_on(const Lattice& lattice, const K& kernel) {
   constexpr int dim = K::dimension;
   const double h = kernel.support_radius, volume = geometry::volume_per_point(lattice);
-  const auto points = geometry::fill(lattice, {.lower = Vector<dim>::Constant(-h - 2.0), .upper = Vector<dim>::Constant(h + 2.0)}).positions;
+  const auto points =
+      geometry::fill(lattice, {.lower = Vector<dim>::Constant(-h - 2.0), .upper = Vector<dim>::Constant(h + 2.0)}).positions;
   const auto centre = *std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
   std::vector<Vector<dim>> neighbours;
   for (const auto& point : points)
@@ -46,7 +47,8 @@ Rates fastest_on(const Lattice& lattice, const K& kernel) {
       scalar += share;
       matrix += (share / (r * r + 0.01 * h * h)) * separation * separation.transpose();
     }
-    const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[dim - 1];
+    const double largest =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, dim, dim>>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[dim - 1];
     rates.along_velocity = std::max(rates.along_velocity, 2.0 * scalar);
     rates.along_separation = std::max(rates.along_separation, 2.0 * (dim + 2.0) * largest);
     more = false;

@@ -14,7 +14,9 @@ TEST_CASE("shock-capturing viscosity obeys the laws of viscosity in 1D, 2D and 3
   check_viscosity_laws<3>(viscosity::ShockCapturing{.alpha = 2.0, .beta = 4.0}, 0.5);
 }
 
-TEST_CASE("shock-capturing viscosity where sound is equally fast everywhere is artificial viscosity; else the mean of the two sound speeds counts") {
+TEST_CASE(
+    "shock-capturing viscosity where sound is equally fast everywhere is artificial viscosity; else the mean of the two sound speeds "
+    "counts") {
   const viscosity::ShockCapturing local{.alpha = 0.3};
   test::ParticleSource source;
   for (int n = 0; n < 100; ++n) {
@@ -22,7 +24,8 @@ TEST_CASE("shock-capturing viscosity where sound is equally fast everywhere is a
     const auto pair = test::pair_of<3>(i, j);
     i.sound_speed = j.sound_speed = 17.0;
     const double of_both = local.along_separation(pair, i, j, 2.6);
-    CHECK(of_both == doctest::Approx(viscosity::Artificial{.alpha = 0.3, .sound_speed = 17.0}.along_separation(pair, i, j, 2.6)).epsilon(1e-14));
+    CHECK(of_both ==
+          doctest::Approx(viscosity::Artificial{.alpha = 0.3, .sound_speed = 17.0}.along_separation(pair, i, j, 2.6)).epsilon(1e-14));
     i.sound_speed = 4.0;
     j.sound_speed = 30.0;
     CHECK(local.along_separation(pair, i, j, 2.6) == doctest::Approx(of_both).epsilon(1e-14));
@@ -30,7 +33,9 @@ TEST_CASE("shock-capturing viscosity where sound is equally fast everywhere is a
   }
 }
 
-TEST_CASE("the quadratic term of shock-capturing viscosity repels as the square of the approach, whatever the sound speed; parting particles are free") {
+TEST_CASE(
+    "the quadratic term of shock-capturing viscosity repels as the square of the approach, whatever the sound speed; parting particles are "
+    "free") {
   const viscosity::ShockCapturing quadratic{.alpha = 0.0, .beta = 1.5};
   test::Particle<1> left{}, right{};
   left.mass = right.mass = left.density = right.density = 1.0;
@@ -49,10 +54,13 @@ TEST_CASE("the quadratic term of shock-capturing viscosity repels as the square 
   const viscosity::ShockCapturing both{.alpha = 1.5 * convergence / c, .beta = 1.5};
   (void)pressure(2.0, c);
   const auto pair = test::pair_of<1>(left, right);
-  CHECK(both.along_separation(pair, left, right, h) == doctest::Approx(2.0 * quadratic.along_separation(pair, left, right, h)).epsilon(1e-14));
+  CHECK(both.along_separation(pair, left, right, h) ==
+        doctest::Approx(2.0 * quadratic.along_separation(pair, left, right, h)).epsilon(1e-14));
 }
 
 TEST_CASE("shock-capturing viscosity refuses parameters that would feed energy or are no number") {
-  CHECK(test::complaint_about(viscosity::ShockCapturing{.alpha = -0.1}) == "viscosity::ShockCapturing: alpha must be finite and >= 0 -, got -0.1");
-  CHECK(test::complaint_about(viscosity::ShockCapturing{.alpha = 0.1, .beta = NAN}) == "viscosity::ShockCapturing: beta must be finite and >= 0 -, got nan");
+  CHECK(test::complaint_about(viscosity::ShockCapturing{.alpha = -0.1}) ==
+        "viscosity::ShockCapturing: alpha must be finite and >= 0 -, got -0.1");
+  CHECK(test::complaint_about(viscosity::ShockCapturing{.alpha = 0.1, .beta = NAN}) ==
+        "viscosity::ShockCapturing: beta must be finite and >= 0 -, got nan");
 }
