@@ -10,7 +10,6 @@
 #include <dmp/core/aligned.hpp>
 #include <dmp/core/pack.hpp>
 #include <dmp/core/threads.hpp>
-#include <dmp/core/unrolled.hpp>
 #include <dmp/core/vector.hpp>
 #include <dmp/geometry/box.hpp>
 #include <dmp/neighbours/cells.hpp>
@@ -193,20 +192,20 @@ class RelativeMotion {
       std::array<Lanes, Dim> before, behind;  // the largest displacement of those before the cell along each axis, the least behind it
       before.fill(Bounds<Dim>{}.upper[0]);
       behind.fill(Bounds<Dim>{}.lower[0]);
-      unrolled<power(3, Dim)>([&](auto around) __attribute__((always_inline)) {
+      for (const auto& side : sides) {
         std::ptrdiff_t away = 0;
-        for (std::size_t d = 0; d < Dim; ++d) away += side(around, d) * static_cast<std::ptrdiff_t>(stride_[d]);
+        for (std::size_t d = 0; d < Dim; ++d) away += side[d] * static_cast<std::ptrdiff_t>(stride_[d]);
         const std::size_t other = cell + static_cast<std::size_t>(away);
         Lanes squared(0.0);
         for (std::size_t d = 0; d < Dim; ++d) {
           const Lanes lower = Lanes::load(&lower_[d][other]), upper = Lanes::load(&upper_[d][other]);
           const Lanes relative = max(max(upper - Lanes::load(&lower_[d][cell]), Lanes::load(&upper_[d][cell]) - lower), 0.0);
           squared += relative * relative;
-          if (side(around, d) < 0) before[d] = max(before[d], upper);
-          if (side(around, d) > 0) behind[d] = min(behind[d], lower);
+          if (side[d] < 0) before[d] = max(before[d], upper);
+          if (side[d] > 0) behind[d] = min(behind[d], lower);
         }
         relative_squared = max(relative_squared, squared);
-      });
+      }
       const Lanes relative = sqrt(relative_squared);
       relative.store(&used_[cell]);
       const auto approach = [&](int d) { return before[static_cast<std::size_t>(d)] - behind[static_cast<std::size_t>(d)]; };
@@ -216,9 +215,18 @@ class RelativeMotion {
     for (int lane = 0; lane < Lanes::width; ++lane) most = std::max(most, result[lane]);
     return most;
   }
-  /// Which neighbour of a cell along direction d is number `around` of 3^Dim: -1, 0 or 1.
-  [[nodiscard]] static constexpr int side(int around, std::size_t d) noexcept { return around / power(3, static_cast<int>(d)) % 3 - 1; }
-  [[nodiscard]] static constexpr int power(int base, int exponent) noexcept { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+  /// A cell and those that touch it: -1, 0 or 1 along each direction.
+  static constexpr auto sides = [] {
+    std::array<Place, Dim == 1 ? 3 : Dim == 2 ? 9 : 27> result{};
+    for (std::size_t k = 0; k < result.size(); ++k) {
+      auto rest = static_cast<int>(k);
+      for (int& along : result[k]) {
+        along = rest % 3 - 1;
+        rest /= 3;
+      }
+    }
+    return result;
+  }();
   /// What particles that approach each other along the axes use up of the skin, with so many cells in between or more.
   template <class T, class Approach>
   [[nodiscard]] T used_by(int cells_between, const Approach& approach) const noexcept {
