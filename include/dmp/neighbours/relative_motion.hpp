@@ -53,7 +53,7 @@ class RelativeMotion {
   /// be many more than the `particles`. Nobody is followed yet.
   void build(const Bounds<Dim>& bounds, const geometry::Box<Dim>& box, double cutoff, double skin, std::size_t particles) {
     reach_ = cutoff + skin;
-    // By half a skin: in shear, three widths that part as much more than two leave room for that much.
+    // Half a skin wider: in shear, those on the two sides of a cell then use up no more than those in cells that touch.
     cells_ = Cells<Dim>(
         2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach_ + 0.5 * skin,
         std::min(4.0 * static_cast<double>(particles) + 64.0, 1e6));
