@@ -46,8 +46,8 @@ class VariableProfile {
   explicit VariableProfile(double hot) : integral_(intervals + 1), moment_(intervals + 1) {
     const auto fluidity = [hot](double y) { return 1.0 / oil.viscosity(cold + (hot - cold) * y / gap); };
     const double step = gap / intervals;
-    for (int k = 0; k < intervals; ++k) {  // Simpson's rule
-      const double y = k * step, middle = y + 0.5 * step, end = y + step;
+    for (std::size_t k = 0; k < intervals; ++k) {  // Simpson's rule
+      const double y = static_cast<double>(k) * step, middle = y + 0.5 * step, end = y + step;
       integral_[k + 1] = integral_[k] + step / 6.0 * (fluidity(y) + 4.0 * fluidity(middle) + fluidity(end));
       moment_[k + 1] = moment_[k] + step / 6.0 * (y * fluidity(y) + 4.0 * middle * fluidity(middle) + end * fluidity(end));
     }
