@@ -99,8 +99,8 @@ class RelativeMotion {
     double used = 0.0;      ///< of the skin [m], where it is most
     double farthest = 0.0;  ///< how far [m] the farthest particle has gone along an axis, whoever goes with it
   };
-  /// From the displacements of all runs; then used(cell) holds too: the largest relative displacement [m] of particles in that cell from any
-  /// of their neighbours. What is not a number counts for nothing: a check of the state finds it.
+  /// From the displacements of all runs; then used(cell) holds too: the largest relative displacement [m] of particles in that cell from
+  /// any of their neighbours. What is not a number counts for nothing: a check of the state finds it.
   [[nodiscard]] Wear find_wear() {
     const Ranges rows(total() / stride_[1], 32);  // of cells along the first direction
     const Bounds<Dim> all = merge_ranges(

@@ -78,8 +78,8 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
     ++list_builds_;
   }
 
-  /// Whether particles may have come near each other that are not in the lists, or all have gone too far; and how far the lists must be read
-  /// until then.
+  /// Whether particles may have come near each other that are not in the lists, or all have gone too far; and how far the lists must be
+  /// read until then.
   [[nodiscard]] bool lists_are_worn() {
     if constexpr (has_pairs) {
       if (this->exclusions_are_worn()) return true;
