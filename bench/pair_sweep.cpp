@@ -67,12 +67,12 @@ struct Sample {
     }
     rates.resize(positions.size());
   }
-  /// Calls sweep(i, lists of i, adder of the sums) for all particles.
+  /// Calls sweep(i, lists of i, first row of its block, adder of the sums counted from there) for all particles.
   template <class Sweep>
   void for_each(const Sweep& sweep) {
     for (std::size_t block = 0; block < blocks.size(); ++block)
       for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i)
-        sweep(i, pairs.of(block, i), sums.adder());
+        sweep(i, pairs.of(block, i), blocks.begin(block), sums.adder().from(blocks.begin(block)));
   }
 };
 
@@ -94,33 +94,42 @@ void report(benchmark::State& state) {
   state.counters["checksum"] = checksum;
 }
 
+/// Records with the mass that all particles have in common.
+template <class Precision>
+struct Source {
+  using Lanes = typename Sample<Precision>::Lanes;
+  using Seen = View<3, Lanes, unite<Record, Fields<field::Mass>>>;
+  typename Sample<Precision>::Records::Reader records;
+
+  [[gnu::always_inline]] Source from(std::size_t row) const noexcept { return {records.from(row)}; }
+  template <class Index>
+  [[gnu::always_inline]] Seen gather(const Index* index) const noexcept {
+    Seen view;
+    copy_fields(Record{}, view, records.gather(index));
+    view.mass = mass;
+    return view;
+  }
+  [[gnu::always_inline]] auto separation(const Components<3, Lanes>& i, const Components<3, Lanes>& j) const noexcept {
+    return records.separation(i, j);
+  }
+};
+
 template <class Precision>
 void pair_sweep_composed(benchmark::State& state) {
   auto& s = sample<Precision>();
   using Lanes = typename Sample<Precision>::Lanes;
-  using Seen = View<3, Lanes, unite<Record, Fields<field::Mass>>>;
+  using Seen = typename Source<Precision>::Seen;
   const Law law{.kernel = {.support_radius = support_radius}, .viscosity = {.alpha = alpha, .sound_speed = sound_speed}};
-  struct Source {
-    typename Sample<Precision>::Records::Reader records;
-    [[gnu::always_inline]] Seen gather(const std::uint32_t* index) const noexcept {
-      Seen view;
-      copy_fields(Record{}, view, records.gather(index));
-      view.mass = mass;
-      return view;
-    }
-    [[gnu::always_inline]] auto separation(const Components<3, Lanes>& i, const Components<3, Lanes>& j) const noexcept {
-      return records.separation(i, j);
-    }
-  };
-  const Source source{s.records.reader()};
+  const Source<Precision> source{s.records.reader()};
   for (auto _ : state)
-    s.for_each([&](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] const auto& add) {
+    s.for_each([&](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] std::size_t first,
+                   [[maybe_unused]] const auto& add) {
       Seen self;
       copy_fields(Record{}, self, s.records.template spread<Lanes>(i));
       self.mass = mass;
       View<3, Lanes, Law::writes> sums;
       sweep::set_zero(sums);
-      if constexpr (Precision::pairs_once) sweep::sum_pairs_of_both<3>(self, source, lists.once, sums, add, law);
+      if constexpr (Precision::pairs_once) sweep::sum_pairs_of_both<3>(self, source.from(first), lists.once, sums, add, law);
       sweep::sum_pairs<3>(self, source, lists.others, sums, law);
       const auto total = s.sums.take(i, sums);
       s.rates[i] = {total.acceleration[0], total.acceleration[1], total.acceleration[2], total.density_rate};
@@ -135,12 +144,13 @@ void pair_sweep_by_hand(benchmark::State& state) {
   const double h = support_radius, gradient = -20.0 * 21.0 / (2.0 * std::numbers::pi * h * h * h) / (h * h);
   const auto records = s.records.reader();
   for (auto _ : state)
-    s.for_each([&](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] const auto& add) {
+    s.for_each([&](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] std::size_t first,
+                   [[maybe_unused]] const auto& add) {
       const auto p = s.records.template spread<Lanes>(i);
       Lanes a[3] = {0.0, 0.0, 0.0}, rate = 0.0;
-      const auto sum = [&](std::span<const std::uint32_t> list, auto of_both) __attribute__((always_inline)) {
+      const auto sum = [&](const auto& list, const auto& from, auto of_both) __attribute__((always_inline)) {
         for (std::size_t k = 0; k < list.size(); k += Lanes::width) {
-          const auto q = records.gather(list.data() + k);
+          const auto q = from.gather(list.data() + k);
           const auto apart = records.separation(p.position, q.position);
           const Lanes x = apart[0], y = apart[1], z = apart[2];
           const Lanes u = p.velocity[0] - q.velocity[0], v = p.velocity[1] - q.velocity[1], w = p.velocity[2] - q.velocity[2];
@@ -157,8 +167,8 @@ void pair_sweep_by_hand(benchmark::State& state) {
           }
         }
       };
-      if constexpr (Precision::pairs_once) sum(lists.once, std::true_type{});
-      sum(lists.others, std::false_type{});
+      if constexpr (Precision::pairs_once) sum(lists.once, records.from(first), std::true_type{});
+      sum(lists.others, records, std::false_type{});
       View<3, Lanes, Law::writes> sums;
       sums.acceleration = {{a[0], a[1], a[2]}};
       sums.density_rate = rate;

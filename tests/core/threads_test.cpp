@@ -62,7 +62,7 @@ TEST_CASE("every row lies in one block and in one range, and a range holds whole
   }
 }
 
-TEST_CASE("blocks depend on the rows alone, not on the threads, and are equal: 4096 rows at least, 16 of them at most") {
+TEST_CASE("blocks depend on the rows alone, not on the threads, and are equal: 4096 rows at least, 16 of them unless 16 bits do not name a row") {
   for (const std::size_t count : {0u, 5u, 8191u, 8192u, 20000u, 70001u, 1000000u}) {
     std::vector<std::size_t> first;
     for (const int threads : {1, 2, 3, 4}) {
@@ -84,6 +84,8 @@ TEST_CASE("blocks depend on the rows alone, not on the threads, and are equal: 4
   CHECK(Blocks(8191).size() == 1);
   CHECK(Blocks(8192).size() == 2);
   CHECK(Blocks(1000000).size() == 16);
+  CHECK(Blocks(16 * Blocks::most_rows).size() == 16);
+  CHECK(Blocks(16 * Blocks::most_rows + 1).size() == 17);
 }
 
 TEST_CASE("bounds of the caller's are taken as they are") {

@@ -50,16 +50,36 @@ struct Search {
   [[nodiscard]] std::uint32_t first_ghost() const {
     return owned() + static_cast<std::uint32_t>(dmp::Blocks::far_rows * (same_group ? blocks.size() : 1));
   }
-  /// What fills the packs of a block: rows that lie far away, and apart from those of the other blocks.
+  /// Whether a block holds two particles so far apart that nobody is in reach of both: else its pairs are not listed once.
+  [[nodiscard]] bool is_wide(std::size_t block) const {
+    double farthest = 0.0;
+    const auto& first = of[blocks.begin(block)];
+    for (std::size_t k = blocks.begin(block); k < blocks.end(block); ++k) farthest = std::max(farthest, (of[k] - first).norm());
+    return farthest > 2.0 * reach();
+  }
+  /// Rows of a list of pairs of the block, without those that fill it up: at its end, fewer than a pack, and out of reach.
+  [[nodiscard]] std::vector<std::uint32_t> rows_once(std::size_t block, std::size_t i, std::size_t level = PairList::levels - 1) const {
+    std::vector<std::uint32_t> result;
+    for (const std::uint16_t row : list.of(block, i, level).once) result.push_back(static_cast<std::uint32_t>(blocks.begin(block) + row));
+    const auto out_of_reach = [&](std::uint32_t row) { return (sources.at(row) - of[i]).norm() > reach() + margin; };
+    for (std::size_t k = 1; k < pack && !result.empty() && out_of_reach(result.back()); ++k) result.pop_back();
+    return result;
+  }
+  /// What fills the packs of the others: rows that lie far away, and apart from those of the other blocks.
   [[nodiscard]] std::uint32_t filler(std::size_t block) const {
     return same_group ? static_cast<std::uint32_t>(blocks.far_row(block)) : owned();
   }
 
-  /// f(block, i, all entries)
+  /// f(block, i, all rows listed)
   template <class Function>
   void for_each_particle(const Function& f) const {
     for (std::size_t block = 0; block < blocks.size(); ++block)
-      for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) f(block, i, list.all(block, i));
+      for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
+        auto rows = rows_once(block, i);
+        const auto others = list.of(block, i).others;
+        rows.insert(rows.end(), others.begin(), others.end());
+        f(block, i, rows);
+      }
   }
   /// What a list says, without the filler, as images in order.
   [[nodiscard]] std::vector<test::Image<Dim>> images(std::span<const std::uint32_t> rows) const {
@@ -81,8 +101,8 @@ struct Search {
   [[nodiscard]] std::vector<test::Image<Dim>> expected(bool listed_once, std::size_t block, std::size_t i, double radius) const {
     auto near = test::all_near<Dim>(of[i], radius, same_group ? static_cast<std::int64_t>(i) : -1, sources, box);
     std::erase_if(near, [&](const test::Image<Dim>& image) {
-      const bool in_block = same_group && once && image.second == std::array<int, Dim>{} && image.first >= blocks.begin(block) &&
-                            image.first < blocks.end(block);
+      const bool in_block = same_group && once && is_wide(block) && image.second == std::array<int, Dim>{} &&
+                            image.first >= blocks.begin(block) && image.first < blocks.end(block);
       return listed_once != in_block || (in_block && image.first < i);
     });
     return near;
@@ -90,40 +110,46 @@ struct Search {
   /// Particles whose lists are not what looking at every pair gives, or not filled as they should be.
   [[nodiscard]] int wrong_lists() const {
     int wrong = 0;
-    for_each_particle([&](std::size_t block, std::size_t i, auto) {
+    for_each_particle([&](std::size_t block, std::size_t i, const auto& all) {
       const auto lists = list.of(block, i);
+      const auto rows_of_once = rows_once(block, i);
       for (const bool listed_once : {true, false}) {
-        const auto rows = listed_once ? lists.once : lists.others;
+        const auto rows = listed_once ? std::span<const std::uint32_t>(rows_of_once) : lists.others;
+        const std::size_t entries = listed_once ? lists.once.size() : lists.others.size();
         const auto listed = images(rows), near = expected(listed_once, block, i, reach()),
                    around = expected(listed_once, block, i, reach() + margin);
         const bool right = std::adjacent_find(listed.begin(), listed.end()) == listed.end() &&
                            std::includes(listed.begin(), listed.end(), near.begin(), near.end()) &&
                            std::includes(around.begin(), around.end(), listed.begin(), listed.end());
-        const bool whole_packs = rows.size() == (listed.size() + pack - 1) / pack * pack;
+        const bool whole_packs = entries == (listed.size() + pack - 1) / pack * pack;
         const auto first_filler = rows.begin() + static_cast<std::ptrdiff_t>(std::min(listed.size(), rows.size()));
         const bool fillers_last = std::all_of(first_filler, rows.end(), [&](std::uint32_t row) { return row == filler(block); });
         wrong += !(right && whole_packs && fillers_last);
       }
-      const auto all = list.all(block, i);
-      wrong += !(all.data() == lists.once.data() && all.data() + lists.once.size() == lists.others.data() &&
-                 all.size() == lists.once.size() + lists.others.size());
+      for (const std::uint16_t row : lists.once) wrong += !(row < blocks.end(block) - blocks.begin(block));
+      std::size_t entries = 0;
+      list.for_each(block, blocks.begin(block), i, [&](std::uint32_t row) { entries += row < first_ghost() + ghosts.size() ? 1 : 0; });
+      wrong += !(entries == lists.once.size() + lists.others.size() && entries >= all.size());
     });
     return wrong;
   }
   /// Particles and levels at which somebody is missing who can act, or a list is not the beginning of the whole one.
   [[nodiscard]] int wrong_levels() const {
     int wrong = 0;
-    for_each_particle([&](std::size_t block, std::size_t i, auto) {
+    const auto begins = [](const auto& read, const auto& whole) {
+      return read.data() == whole.data() && read.size() <= whole.size() && read.size() % pack == 0;
+    };
+    for_each_particle([&](std::size_t block, std::size_t i, const auto&) {
       const auto lists = list.of(block, i);
-      for (std::size_t level = 0; level < PairList::levels; ++level)
+      for (std::size_t level = 0; level < PairList::levels; ++level) {
+        const auto read = list.of(block, i, level);
+        wrong += !(begins(read.once, lists.once) && begins(read.others, lists.others));
         for (const bool listed_once : {true, false}) {
-          const auto rows = listed_once ? lists.once : lists.others,
-                     read = listed_once ? list.of(block, i, level).once : list.of(block, i, level).others;
-          const auto seen = images(read),
+          const auto seen = listed_once ? images(rows_once(block, i, level)) : images(read.others),
                      near = expected(listed_once, block, i, cutoff + skin * static_cast<double>(level + 1) / PairList::levels);
-          wrong += !(read.data() == rows.data() && read.size() <= rows.size() && read.size() % pack == 0 &&
-                     std::includes(seen.begin(), seen.end(), near.begin(), near.end()));
+          wrong += !std::includes(seen.begin(), seen.end(), near.begin(), near.end());
         }
+      }
     });
     return wrong;
   }
@@ -180,11 +206,12 @@ TEST_CASE(
                    .same_group = true};
   search.run();
   CHECK(search.margin < 0.125e-5);
-  search.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });
+  search.for_each_particle([&](std::size_t, std::size_t, const auto& rows) { CHECK(rows.empty()); });
   search.cutoff = std::nextafter(0.125, 1.0);
   search.run();
   std::size_t pairs = 0;
-  search.for_each_particle([&](std::size_t block, std::size_t i, auto rows) {
+  search.for_each_particle([&](std::size_t block, std::size_t i, const auto& rows) {
+    CHECK(search.is_wide(block));
     for (const auto& image : search.images(rows))
       pairs += image.second == std::array<int, 2>{} && image.first > i && image.first < search.blocks.end(block) ? 2 : 1;
   });
@@ -200,12 +227,14 @@ TEST_CASE("every neighbour sees back: in full, or as the partner of a pair liste
                    .bounds = {0, 50, 51, 200, 300}};
   search.run();
   std::vector<std::vector<std::uint32_t>> seen(search.of.size()), seeing(search.of.size());
-  search.for_each_particle([&](std::size_t block, std::size_t i, auto rows) {
+  CHECK(search.is_wide(0));
+  CHECK_FALSE(search.is_wide(1));
+  search.for_each_particle([&](std::size_t block, std::size_t i, const auto& rows) {
     for (const auto& image : search.images(rows)) {
       seeing[i].push_back(image.first);
       seen[image.first].push_back(static_cast<std::uint32_t>(i));
-      if (image.second != std::array<int, 2>{} || image.first < search.blocks.begin(block) || image.first >= search.blocks.end(block))
-        continue;
+      if (!search.is_wide(block) || image.second != std::array<int, 2>{}) continue;
+      if (image.first < search.blocks.begin(block) || image.first >= search.blocks.end(block)) continue;
       seeing[image.first].push_back(static_cast<std::uint32_t>(i));  // the law speaks for both
       seen[i].push_back(image.first);
     }
@@ -252,7 +281,7 @@ TEST_CASE("the lower levels are shorter: a list just built is read as far as a q
                    .skin = 0.1};
   search.run();
   std::array<double, PairList::levels> entries{};
-  search.for_each_particle([&](std::size_t block, std::size_t i, auto) {
+  search.for_each_particle([&](std::size_t block, std::size_t i, const auto&) {
     for (std::size_t level = 0; level < PairList::levels; ++level)
       entries[level] += static_cast<double>(search.list.of(block, i, level).once.size() + search.list.of(block, i, level).others.size());
   });
@@ -322,10 +351,11 @@ TEST_CASE("lists do not depend on the number of threads, entry by entry") {
     search.run();
     CHECK(search.blocks.ranges().size() == static_cast<std::size_t>(count));
     std::vector<std::vector<std::uint32_t>> lists;
-    search.for_each_particle([&](std::size_t block, std::size_t i, auto) {
+    search.for_each_particle([&](std::size_t block, std::size_t i, const auto&) {
       for (std::size_t level = 0; level < PairList::levels; ++level)
-        for (const auto list : {search.list.of(block, i, level).once, search.list.of(block, i, level).others})
-          lists.emplace_back(list.begin(), list.end());
+        lists.push_back(search.rows_once(block, i, level));
+      const auto others = search.list.of(block, i).others;
+      lists.emplace_back(others.begin(), others.end());
     });
     if (first.empty()) first = lists;
     CHECK(lists == first);
@@ -341,7 +371,9 @@ TEST_CASE("the entries of a block are those of its particles") {
                    .bounds = {0, 60, 61, 200}};
   search.run();
   std::vector<double> entries(3, 0.0);
-  search.for_each_particle([&](std::size_t block, std::size_t, auto rows) { entries[block] += static_cast<double>(rows.size()); });
+  search.for_each_particle([&](std::size_t block, std::size_t i, const auto&) {
+    search.list.for_each(block, search.blocks.begin(block), i, [&](std::uint32_t) { ++entries[block]; });
+  });
   for (std::size_t block = 0; block < 3; ++block) CHECK(search.list.entries(search.blocks, block) == entries[block]);
 }
 
@@ -357,20 +389,38 @@ TEST_CASE("no particle has no list, one alone an empty one, and nobody to list l
   }
   Search<2> one{.of = {{0.0, 0.0}}, .sources = {{0.0, 0.0}}, .box = test::cube<2>(1.0, {true, true}), .cutoff = 0.3, .same_group = true};
   one.run();
-  one.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });
+  one.for_each_particle([&](std::size_t, std::size_t, const auto& rows) { CHECK(rows.empty()); });
   one.cutoff = 1.1;  // its own images
   one.box = test::cube<2>(1.2, {true, true});
   one.skin = 0.05;
   one.of[0] = one.sources[0] = {0.59, 0.0};
   one.run();
-  one.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });  // 1.2 m away
+  one.for_each_particle([&](std::size_t, std::size_t, const auto& rows) { CHECK(rows.empty()); });  // 1.2 m away
   one.skin = 0.1001;
   one.run();
   one.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(one.images(rows).size() == 4); });
   Search<2> alone{
       .of = test::scattered<2>(10, 1.0, 8), .sources = {}, .box = test::cube<2>(1.0, {true, true}), .cutoff = 0.5, .same_group = false};
   alone.run();
-  alone.for_each_particle([&](std::size_t, std::size_t, auto rows) { CHECK(rows.empty()); });
+  alone.for_each_particle([&](std::size_t, std::size_t, const auto& rows) { CHECK(rows.empty()); });
+}
+
+TEST_CASE("pairs of a block are listed once if its rows fit into 16 bits, and at both ends otherwise") {
+  for (const std::size_t count : {dmp::Blocks::most_rows, dmp::Blocks::most_rows + 1}) {
+    CAPTURE(count);
+    test::Cloud<1> row;
+    for (std::size_t k = 0; k < count; ++k) row.emplace_back(static_cast<double>(k) / static_cast<double>(count));
+    Search<1> search{.of = row, .sources = row, .box = test::cube<1>(1.0), .cutoff = 1.5 / static_cast<double>(count), .same_group = true,
+                     .bounds = {0, count}};
+    search.run();
+    std::size_t once = 0, others = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      once += search.rows_once(0, i).size();
+      others += search.images(search.list.of(0, i).others).size();
+    }
+    CHECK(once == (count == dmp::Blocks::most_rows ? count - 1 : 0));
+    CHECK(others == (count == dmp::Blocks::most_rows ? 0 : 2 * (count - 1)));
+  }
 }
 
 TEST_CASE("a list built again forgets the lists before") {
@@ -387,28 +437,28 @@ TEST_CASE("a list built again forgets the lists before") {
 }
 
 TEST_CASE("bonded particles leave the lists, as ghosts too, and the fillers close up") {
-  // A ring of 12 through the periodic face; the radius reaches 4 to either side.
+  // A ring of 48 through the periodic face; the radius reaches 4 to either side.
   test::Cloud<1> ring;
-  for (int k = 0; k < 12; ++k) ring.emplace_back((k + 0.5) / 12.0 - 0.5);
-  dmp::neighbours::BondGraph graph(12);
-  for (std::uint32_t k = 0; k < 12; ++k) {
-    graph[k].push_back((k + 1) % 12);
-    graph[(k + 1) % 12].push_back(k);
+  for (int k = 0; k < 48; ++k) ring.emplace_back((k + 0.5) / 48.0 - 0.5);
+  dmp::neighbours::BondGraph graph(48);
+  for (std::uint32_t k = 0; k < 48; ++k) {
+    graph[k].push_back((k + 1) % 48);
+    graph[(k + 1) % 48].push_back(k);
   }
   for (const int reach : {1, 2, 3}) {
     CAPTURE(reach);
     Exclusions excluded;
-    excluded.build(graph, {0, 12}, {0, 12}, reach);
+    excluded.build(graph, {0, 48}, {0, 48}, reach);
     Search<1> search{
-        .of = ring, .sources = ring, .box = test::cube<1>(1.0, {true}), .cutoff = 3.0 / 12.0, .same_group = true, .skin = 1.2 / 12.0};
+        .of = ring, .sources = ring, .box = test::cube<1>(1.0, {true}), .cutoff = 3.0 / 48.0, .same_group = true, .skin = 1.2 / 48.0};
     search.run(excluded);
-    search.for_each_particle([&](std::size_t block, std::size_t i, auto rows) {
-      CHECK(rows.size() % pack == 0);
+    search.for_each_particle([&](std::size_t block, std::size_t i, const auto& rows) {
+      CHECK(search.is_wide(block));
       std::vector<std::uint32_t> listed, expected;
       std::array<std::size_t, 2> expected_in{};  // once, and at both ends
       for (const auto& image : search.images(rows)) listed.push_back(image.first);
-      for (std::uint32_t j = 0; j < 12; ++j) {
-        const int around = std::abs(static_cast<int>(i) - static_cast<int>(j)), apart = std::min(around, 12 - around);
+      for (std::uint32_t j = 0; j < 48; ++j) {
+        const int around = std::abs(static_cast<int>(i) - static_cast<int>(j)), apart = std::min(around, 48 - around);
         const bool listed_there = apart == around && j < i && j >= search.blocks.begin(block);
         if (!(apart > reach && apart <= 4) || listed_there) continue;
         expected.push_back(j);

@@ -93,9 +93,11 @@ struct Sample {
         View<Dim, Lanes, Writes> lanes;
         sweep::set_zero(lanes);
         const auto self = records.template spread<Lanes>(i);
-        const auto add = sums.adder();
         const auto lists = pairs.of(block, i, level);
-        if constexpr (Precision::pairs_once) sweep::sum_pairs_of_both<Dim>(self, records.reader(), lists.once, lanes, add, law...);
+        if constexpr (Precision::pairs_once) {
+          const std::size_t first = blocks.begin(block);
+          sweep::sum_pairs_of_both<Dim>(self, records.reader().from(first), lists.once, lanes, sums.adder().from(first), law...);
+        }
         sweep::sum_pairs<Dim>(self, records.reader(), lists.others, lanes, law...);
         result.total.push_back(numbers(sums.take(i, lanes)));
       }

@@ -232,8 +232,8 @@ template <int Step, class Raw, int Width>
 }  // namespace detail
 
 /// Writes the numbers of `from` whose bit is set side by side to `to`, which has room for all of them.
-template <int Width>
-[[gnu::always_inline]] inline void compress(typename Pack<float, Width>::Rows from, unsigned bits, std::uint32_t* to) noexcept {
+template <int Width, class Number>
+[[gnu::always_inline]] inline void compress(typename Pack<float, Width>::Rows from, unsigned bits, Number* to) noexcept {
 #if defined(__AVX2__)
   if constexpr (Width == 8) {
     static constexpr auto lanes_of = [] {
@@ -247,21 +247,22 @@ template <int Width>
     __builtin_memcpy(&order, lanes_of[bits].data(), 32);
     __builtin_memcpy(&all, &from, 32);
     all = __builtin_ia32_permvarsi256(all, order);
-    __builtin_memcpy(to, &all, 32);
+    using Numbers __attribute__((vector_size(8 * sizeof(Number)))) = Number;
+    const Numbers numbers = __builtin_convertvector(all, Numbers);
+    __builtin_memcpy(to, &numbers, sizeof(numbers));
     return;
   }
 #endif
   for (int lane = 0; lane < Width; ++lane) {  // written in any case, kept if its bit is set
-    *to = from[lane];
+    *to = static_cast<Number>(from[lane]);
     to += bits >> lane & 1u;
   }
 }
 
 /// Loads field by field what lies record by record: out[f] lane l = base[stride * index[l] + f], f < Count. `stride` is a multiple
 /// of the width: whole registers are loaded and transposed, which on AVX is 3 to 4 times as fast as gathering numbers one by one.
-template <int Count, class Real, int Width>
-[[gnu::always_inline]] inline void load_transposed(const Real* base, int stride, const std::uint32_t* index,
-                                                   Pack<Real, Width>* out) noexcept {
+template <int Count, class Real, int Width, class Index>
+[[gnu::always_inline]] inline void load_transposed(const Real* base, int stride, const Index* index, Pack<Real, Width>* out) noexcept {
   using Raw = typename Pack<Real, Width>::Raw;
   const Real* record[Width];
   unrolled<Width>([&](auto lane) __attribute__((always_inline)) {
@@ -280,9 +281,8 @@ template <int Count, class Real, int Width>
 
 /// The reverse, added: base[stride * index[l] + f] += in[f] lane l, f < Count, one record after the other, so that an index may stand
 /// twice. Numbers that fill up the last register of a record get zeros added.
-template <int Count, class Real, int Width>
-[[gnu::always_inline]] inline void add_transposed(Real* base, int stride, const std::uint32_t* index,
-                                                  const Pack<Real, Width>* in) noexcept {
+template <int Count, class Real, int Width, class Index>
+[[gnu::always_inline]] inline void add_transposed(Real* base, int stride, const Index* index, const Pack<Real, Width>* in) noexcept {
   using Raw = typename Pack<Real, Width>::Raw;
   unrolled<(Count + Width - 1) / Width>([&](auto block) __attribute__((always_inline)) {
     constexpr int first = block * Width;

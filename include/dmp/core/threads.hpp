@@ -114,16 +114,18 @@ class Blocks {
     return std::clamp<std::size_t>(count / 64, 4096, 16384);
   }
 
+  /// Rows of a block that 16 bits can name.
+  static constexpr std::size_t most_rows = std::size_t{1} << 16;
   /// For each block, rows after those of the particles where sums end up that nobody wants, one per lane; apart, so that no two threads
   /// share a cache line.
   static constexpr std::size_t far_rows = 16;
   [[nodiscard]] std::size_t far_row(std::size_t block) const noexcept { return bounds_.back() + far_rows * block; }
 
   Blocks() = default;
-  /// Equal blocks, for particles in an order that is not ours: at most 16 of them, since those that act on each other lie apart by whole
-  /// layers of the body.
+  /// Equal blocks, for particles in an order that is not ours: at most 16 of up to `most_rows`, since those that act on each other lie
+  /// apart by whole layers of the body.
   explicit Blocks(std::size_t count) {
-    const std::size_t blocks = std::clamp<std::size_t>(count / 4096, 1, 16);
+    const std::size_t blocks = std::max(std::clamp<std::size_t>(count / 4096, 1, 16), (count + most_rows - 1) / most_rows);
     bounds_.resize(blocks + 1);
     for (std::size_t b = 0; b <= blocks; ++b) bounds_[b] = count * b / blocks;
     divide_evenly();

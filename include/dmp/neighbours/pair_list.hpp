@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -20,7 +21,9 @@ namespace dmp::neighbours {
 /// For each particle of one group, the rows of its neighbours in another (or the same) group. A pair in the same block of the same group is
 /// listed once, at the particle further up, and its law evaluated for both; all others (ghosts, other groups, other blocks) are listed at
 /// each end that evolves. Each of these two lists is ordered by how much of the skin must have been used up before a pair can act: a sweep
-/// reads only as far as its `level`. It fills whole packs of `pack` entries with rows far away from everything.
+/// reads only as far as its `level`. It fills whole packs of `pack` entries: with rows far away from everything, or, where pairs are listed
+/// once, with one of two rows of the block so far apart that one of them cannot act. Rows of the same block are counted from its first and
+/// take 16 bits; a block without two such rows, or of more than 65 536, has all its pairs listed at both ends.
 class PairList {
  public:
   /// The particles that are listed: rows 0 .. owned - 1 of the source group; then rows far away from everything (Blocks::far_rows for each
@@ -53,24 +56,28 @@ class PairList {
       within[l] = static_cast<float>(radius * radius / (longest * longest) * (1.0 + 1e-6));
     }
     for_each_block(blocks, [&](std::size_t thread, std::size_t block) {
-      auto& rows = found_[thread].listed;
-      rows.clear();
+      auto& [found, once, others] = found_[thread];
+      once.clear();
+      others.clear();
       const std::size_t first = blocks.begin(block), last = blocks.end(block);
-      Found& found = found_[thread].found;
-      std::vector<std::uint32_t>& beyond = found_[thread].beyond;
-      const bool once = sources.same_group && sources.once;
-      const auto block_first = static_cast<std::uint32_t>(first), once_size = static_cast<std::uint32_t>(once ? last - first : 0);
+      const auto block_first = static_cast<std::uint32_t>(first);
+      FarApart<Dim> far_apart;
+      if (sources.same_group && sources.once) far_apart = find_far_apart(positions, first, last, cutoff + skin + grid.margin());
+      const auto once_size = static_cast<std::uint32_t>(far_apart.found ? last - first : 0);
+      const std::uint32_t far = sources.owned + static_cast<std::uint32_t>(sources.same_group ? Blocks::far_rows * block : 0);
       for (std::size_t i = first; i < last; ++i) {
-        const auto row = static_cast<std::uint32_t>(i), left_out = once ? block_first : row;  // those further up list it; and itself
+        const auto row = static_cast<std::uint32_t>(i);
+        const std::uint32_t left_out = once_size > 0 ? block_first : row;  // those further up list it; and itself
         found.size = 0;
         grid.find(positions[i], cutoff + skin, found, {left_out, sources.same_group ? row + 1 - left_out : 0});
         name_rows(found, row, sources, excluded);
         At& at = at_[i];
-        at.first = static_cast<std::uint32_t>(rows.size() / pack);
-        const std::size_t begin = rows.size();
-        rows.resize(begin + found.size + 2 * pack + Lanes::width);
-        if (beyond.size() < found.rows.size() + Lanes::width) beyond.resize(found.rows.size() + Lanes::width);
-        std::size_t end = begin, end_beyond = 0;
+        at.first_once = static_cast<std::uint32_t>(once.size() / pack);
+        at.first_other = static_cast<std::uint32_t>(others.size() / pack);
+        const std::size_t begin_once = once.size(), begin_others = others.size();
+        std::size_t end_once = begin_once, end_others = begin_others;
+        once.resize(begin_once + found.size + pack + Lanes::width);
+        others.resize(begin_others + found.size + pack + Lanes::width);
         for (std::size_t l = 0; l < levels; ++l) {
           const Lanes from(l > 0 ? within[l - 1] : 0.0f), to(within[l]);
           for (std::size_t k = 0; k < found.size; k += Lanes::width) {
@@ -78,76 +85,115 @@ class PairList {
             typename Lanes::Rows numbers;
             __builtin_memcpy(&numbers, found.rows.data() + k, sizeof(numbers));
             const auto in_level = fraction >= from && fraction < to;
-            const Mask<float, Lanes::width> listed_once{numbers - block_first < once_size};
-            const unsigned here = (in_level && listed_once).bits(), others = in_level.bits() & ~here;
-            compress<Lanes::width>(numbers, here, rows.data() + end);
-            end += static_cast<std::size_t>(__builtin_popcount(here));
-            compress<Lanes::width>(numbers, others, beyond.data() + end_beyond);
-            end_beyond += static_cast<std::size_t>(__builtin_popcount(others));
+            const typename Lanes::Rows in_block = numbers - block_first;
+            const Mask<float, Lanes::width> listed_once{in_block < once_size};
+            const unsigned here = (in_level && listed_once).bits(), elsewhere = in_level.bits() & ~here;
+            compress<Lanes::width>(in_block, here, once.data() + end_once);
+            end_once += static_cast<std::size_t>(__builtin_popcount(here));
+            compress<Lanes::width>(numbers, elsewhere, others.data() + end_others);
+            end_others += static_cast<std::size_t>(__builtin_popcount(elsewhere));
           }
-          at.once[l] = packs(end - begin);
-          at.others[l] = packs(end_beyond);
+          at.once[l] = packs(end_once - begin_once);
+          at.others[l] = packs(end_others - begin_others);
         }
-        const std::uint32_t far = sources.owned + static_cast<std::uint32_t>(sources.same_group ? Blocks::far_rows * block : 0);
-        const auto fill_up = [&] {
-          for (; (end - begin) % pack != 0; ++end) rows[end] = far;
-        };
-        fill_up();
-        std::copy_n(beyond.data(), end_beyond, rows.data() + end);
-        end += end_beyond;
-        fill_up();
-        rows.resize(end);
+        if (end_once % pack != 0) {
+          const std::uint16_t filler = far_apart.from(positions[i]);
+          for (; end_once % pack != 0; ++end_once) once[end_once] = filler;
+        }
+        for (; end_others % pack != 0; ++end_others) others[end_others] = far;
+        once.resize(end_once);
+        others.resize(end_others);
       }
-      keep(rows, rows_[block]);
+      keep(once, rows_[block].once);
+      keep(others, rows_[block].others);
     });
   }
 
   struct Neighbours {
-    std::span<const std::uint32_t> once;    ///< of the same block, further down: the law serves both
+    std::span<const std::uint16_t> once;    ///< of the same block, further down, counted from its first row: the law serves both
     std::span<const std::uint32_t> others;  ///< those that are listed at each end
   };
   /// Of particle i, which lies in `block`, the neighbours that can act while no more than (level + 1)/levels of the skin is used up.
   [[nodiscard, gnu::always_inline]] Neighbours of(std::size_t block, std::size_t i, std::size_t level = levels - 1) const noexcept {
     const At& at = at_[i];
-    const std::uint32_t* const begin = rows_[block].data() + pack_ * at.first;
-    return {{begin, pack_ * at.once[level]}, {begin + pack_ * at.once[levels - 1], pack_ * at.others[level]}};
+    const RowsOfBlock& rows = rows_[block];
+    return {{rows.once.data() + pack_ * at.first_once, pack_ * at.once[level]},
+            {rows.others.data() + pack_ * at.first_other, pack_ * at.others[level]}};
   }
-  /// All entries of particle i.
-  [[nodiscard]] std::span<const std::uint32_t> all(std::size_t block, std::size_t i) const noexcept {
+  /// Calls function(row) for all entries of particle i of the block that begins at `first`.
+  template <class Function>
+  void for_each(std::size_t block, std::size_t first, std::size_t i, Function&& function) const {
     const Neighbours lists = of(block, i);
-    return {lists.once.data(), lists.once.size() + lists.others.size()};
+    for (const std::uint16_t row : lists.once) function(static_cast<std::uint32_t>(first + row));
+    for (const std::uint32_t row : lists.others) function(row);
   }
   /// Entries of a block, what a sweep over it costs.
   [[nodiscard]] double entries(const Blocks& blocks, std::size_t block) const noexcept {
     if (at_.empty() || blocks.begin(block) == blocks.end(block)) return 0.0;
-    return static_cast<double>(rows_[block].size());
+    return static_cast<double>(rows_[block].once.size() + rows_[block].others.size());
   }
   [[nodiscard]] std::size_t bytes() const noexcept {
     std::size_t result = at_.capacity() * sizeof(At);
-    for (const auto& rows : rows_) result += rows.capacity() * sizeof(std::uint32_t);
-    for (const auto& [found, beyond, listed] : found_)
-      result += (found.rows.capacity() + found.fraction.capacity() + beyond.capacity() + listed.capacity()) * sizeof(std::uint32_t);
+    for (const auto& rows : rows_) result += rows.bytes();
+    for (const auto& [found, once, others] : found_)
+      result += (found.rows.capacity() + found.fraction.capacity() + others.capacity()) * sizeof(std::uint32_t) +
+                once.capacity() * sizeof(std::uint16_t);
     return result;
   }
 
  private:
   struct At {
-    std::uint32_t first;                             // pack, counted from the start of the block
+    std::uint32_t first_once, first_other;           // packs, counted from the start of the block
     std::array<std::uint16_t, levels> once, others;  // packs of each level, with those before
+  };
+  struct RowsOfBlock {
+    AlignedVector<std::uint16_t> once;
+    AlignedVector<std::uint32_t> others;
+    [[nodiscard]] std::size_t bytes() const noexcept {
+      return once.capacity() * sizeof(std::uint16_t) + others.capacity() * sizeof(std::uint32_t);
+    }
   };
   using Lanes = Pack<float, native_width<float>>;
   struct alignas(64) FoundOfThread {  // no two threads share a cache line
     Found found;
-    std::vector<std::uint32_t> beyond;
-    AlignedVector<std::uint32_t> listed;  // of a block
+    AlignedVector<std::uint16_t> once;  // of a block
+    AlignedVector<std::uint32_t> others;
   };
   /// Copies with a margin of 1/32 for the next lists, where a vector that grows would take twice what is needed.
-  static void keep(const AlignedVector<std::uint32_t>& rows, AlignedVector<std::uint32_t>& kept) {
+  template <class Row>
+  static void keep(const AlignedVector<Row>& rows, AlignedVector<Row>& kept) {
     if (kept.capacity() < rows.size()) {
       kept = {};
       kept.reserve(rows.size() + rows.size() / 32);
     }
     kept.assign(rows.begin(), rows.end());
+  }
+
+  /// Two particles of a block, counted from its first, of which one is out of reach, wherever in the block one is.
+  template <int Dim>
+  struct FarApart {
+    bool found = false;
+    std::uint16_t one = 0, other = 0;
+    Vector<Dim> at_one = Vector<Dim>::Zero();
+    double reach = 0.0;
+
+    [[nodiscard]] std::uint16_t from(const Vector<Dim>& x) const noexcept { return (x - at_one).norm() > reach ? one : other; }
+  };
+  template <int Dim>
+  [[nodiscard]] static FarApart<Dim> find_far_apart(std::span<const Vector<Dim>> positions, std::size_t first, std::size_t last,
+                                                    double reach) {
+    FarApart<Dim> result;
+    if (first == last || last - first > Blocks::most_rows) return result;
+    result.at_one = positions[first];
+    result.reach = (1.0 + 1e-6) * reach;
+    double farthest = 0.0;
+    for (std::size_t k = first; k < last; ++k)
+      if (const double distance = (positions[k] - result.at_one).squaredNorm(); distance > farthest) {
+        farthest = distance;
+        result.other = static_cast<std::uint16_t>(k - first);
+      }
+    result.found = std::sqrt(farthest) > 2.0 * result.reach;
+    return result;
   }
 
   /// Packs that hold some entries of one particle.
@@ -176,7 +222,7 @@ class PairList {
 
   std::size_t pack_ = 1;
   std::vector<At> at_;
-  std::vector<AlignedVector<std::uint32_t>> rows_;  // of each block
+  std::vector<RowsOfBlock> rows_;
   std::vector<FoundOfThread> found_;
 };
 

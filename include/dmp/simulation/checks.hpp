@@ -159,15 +159,15 @@ void reject_overlap(const geometry::Box<Dim>& box, const Placed<Dim>& a, const P
   const double least = 0.5 * std::min(a.spacing, b.spacing);
   for (std::size_t block = 0; block < a.blocks.size(); ++block)
     for (std::size_t i = a.blocks.begin(block); i < a.blocks.end(block); ++i)
-      for (const std::uint32_t row : pairs.all(block, i)) {
-        if (row >= b.positions.size() && row < b.first_ghost) continue;  // fills up the pack
+      pairs.for_each(block, a.blocks.begin(block), i, [&](std::uint32_t row) {
+        if (row >= b.positions.size() && row < b.first_ghost) return;  // fills up the pack
         const std::size_t j = b.sources.original(row);
         const double distance = neighbours::minimum_image<Dim>(a.positions[i] - b.positions[j], box).norm();
         if (distance < least)
           throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " +
                                b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
                                to_text(distance));
-      }
+      });
 }
 }  // namespace detail
 /// Particles closer than half their spacing at the start are a fill done twice, or two fills that overlap. Throws ParameterError.

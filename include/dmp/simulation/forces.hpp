@@ -218,9 +218,9 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
       if constexpr (is_interaction<I>)
         active.item.laws.apply([&](const auto&... law) __attribute__((always_inline)) {
           if constexpr (std::is_same_v<Tag, typename I::A>)
-            pairs<typename I::B, std::is_same_v<Tag, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums, add, law...);
+            pairs<typename I::B>(g, block, self, active.of_a.of(block, i, level_of(g, block)), sums, add, law...);
           else if constexpr (std::is_same_v<Tag, typename I::B>)
-            pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
+            pairs<typename I::A>(g, block, self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
         });
     });
   }
@@ -241,12 +241,15 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
         }
     });
   }
-  /// What laws say of a particle and its partners in one list; `Within`: these are of the same group.
-  template <class Source, bool Within, class Self, class Sums, class Add, class... Law>
-  [[gnu::always_inline]] void pairs(const Self& self, const neighbours::PairList::Neighbours& neighbours, Sums& sums, const Add& add,
-                                    const Law&... law) const noexcept {
+  /// What laws say of a particle of a block of g and its partners in one list.
+  template <class Source, class G, class Self, class Sums, class Add, class... Law>
+  [[gnu::always_inline]] void pairs(const G& g, std::size_t block, const Self& self, const neighbours::PairList::Neighbours& neighbours,
+                                    Sums& sums, const Add& add, const Law&... law) const noexcept {
     const auto source = this->template group<Source>().reader();
-    if constexpr (Within && Precision::pairs_once) sweep::sum_pairs_of_both<Dim>(self, source, neighbours.once, sums, add, law...);
+    if constexpr (std::is_same_v<Source, typename G::Tag> && Precision::pairs_once) {
+      const std::size_t first = g.blocks.begin(block);
+      sweep::sum_pairs_of_both<Dim>(self, source.from(first), neighbours.once, sums, add.from(first), law...);
+    }
     sweep::sum_pairs<Dim>(self, source, neighbours.others, sums, law...);
   }
 
@@ -278,10 +281,9 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
           using I = std::remove_cvref_t<decltype(active.item)>;
           if constexpr (detail::is_summed_over<I>) {
             if constexpr (std::is_same_v<typename G::Tag, typename I::A>)
-              pairs<typename I::B, std::is_same_v<typename I::A, typename I::B>>(self, active.of_a.of(block, i, level_of(g, block)), sums,
-                                                                                 add, law);
+              pairs<typename I::B>(g, block, self, active.of_a.of(block, i, level_of(g, block)), sums, add, law);
             else if constexpr (std::is_same_v<typename G::Tag, typename I::B>)
-              pairs<typename I::A, false>(self, active.of_b.of(block, i, level_of(g, block)), sums, add, law);
+              pairs<typename I::A>(g, block, self, active.of_b.of(block, i, level_of(g, block)), sums, add, law);
           }
         });
         View<Dim, double, unite<typename C::seen, typename Law::sets>> particle;
