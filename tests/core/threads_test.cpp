@@ -62,7 +62,7 @@ TEST_CASE("every row lies in one block and in one range, and a range holds whole
   }
 }
 
-TEST_CASE("blocks depend on the rows alone, not on the threads, and are equal: 4096 rows at least, 16 of them as long as 16 bits name a row") {
+TEST_CASE("blocks depend on the rows alone, not on the threads: equal, of 4096 rows at least, 16 as long as 16 bits name a row") {
   for (const std::size_t count : {0u, 5u, 8191u, 8192u, 20000u, 70001u, 1000000u}) {
     std::vector<std::size_t> first;
     for (const int threads : {1, 2, 3, 4}) {
