@@ -83,6 +83,16 @@ TEST_CASE_TEMPLATE("the blocks of an even cloud are boxes that do not overlap, c
   }
 }
 
+TEST_CASE("a particle far away makes cells wide, but not the blocks of the others large") {
+  auto points = test::scattered<3>(100000, 1.0, 4);
+  points.emplace_back(20.0, 20.0, 20.0);
+  SpatialOrder<3> order;
+  order.build(points, 0.02, 0.8);
+  CHECK(bounds_are_right(order, points.size()));
+  for (std::size_t block = 0; block + 1 < order.bounds().size(); ++block)
+    CHECK(order.bounds()[block + 1] - order.bounds()[block] <= 4 * Blocks::rows_wanted(points.size()));
+}
+
 TEST_CASE_TEMPLATE("within a block, those near in memory are near in space", Dimension, std::integral_constant<int, 1>,
                    std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int dim = Dimension::value;

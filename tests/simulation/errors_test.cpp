@@ -1,6 +1,7 @@
 // What a user can get wrong, and what can go wrong in a run: each is told with who, what, the rule and the value.
 #include <limits>
 #include <string>
+#include <utility>
 #include <doctest/doctest.h>
 
 #include "io/temporary_folder.hpp"
@@ -106,6 +107,25 @@ TEST_CASE("scene: support radius against spacing and box, inverted and endless b
                        ParameterError);
   CHECK_THROWS_WITH_AS(pond({.upper = {std::numeric_limits<double>::infinity(), 1.0}}),
                        doctest::Contains("geometry::Box: a periodic direction must be finite"), ParameterError);
+}
+
+TEST_CASE("overlap: bonded particles leave the interaction and may be near each other, directly or through a periodic face") {
+  for (const double second : {0.985, 0.025}) {
+    CAPTURE(second);
+    geometry::Points<2> beads{.positions = {{0.005, 0.5}, {second, 0.5}}};
+    for (const double x : {0.14, 0.28, 0.42, 0.56, 0.7, 0.84}) beads.positions.emplace_back(x, 0.5);
+    beads.spacing = 0.1;
+    const auto run_ring = [&](bool excluded) {
+      auto repulsion = interaction<Solid, Solid>(potential::LennardJones{.energy_scale = 1e-6, .diameter = 0.1, .cutoff = 0.152});
+      if (excluded) repulsion = std::move(repulsion).excluding_bonded(1);
+      scene<integrator::Leapfrog>(geometry::Box<2>{.lower = {0.0, 0.0}, .upper = {1.0, 1.0}, .periodic = {true, true}},
+                                  group<Solid>("ring", Mobile{}, beads, 1.0), repulsion,
+                                  bonds<Solid, Solid>(bond::Harmonic{.stiffness = 1.0}, {{0, 1}}))
+          .run({.until = 1e-5, .time_step = 1e-5});
+    };
+    CHECK_NOTHROW(run_ring(true));
+    CHECK_THROWS_WITH_AS(run_ring(false), doctest::Contains("particles must not overlap at the start: ring"), ParameterError);
+  }
 }
 
 TEST_CASE("input: overlapping fills, values that are not numbers, density not set, particles outside the box") {

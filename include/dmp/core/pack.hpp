@@ -261,8 +261,9 @@ template <int Width, class Number>
 
 /// Loads field by field what lies record by record: out[f] lane l = base[stride * index[l] + f], f < Count. `stride` is a multiple
 /// of the width: whole registers are loaded and transposed, which on AVX is 3 to 4 times as fast as gathering numbers one by one.
-template <int Count, class Real, int Width, class Index>
-[[gnu::always_inline]] inline void load_transposed(const Real* base, int stride, const Index* index, Pack<Real, Width>* out) noexcept {
+template <int Count, class Real, int Width>
+[[gnu::always_inline]] inline void load_transposed(const Real* base, int stride, const std::uint32_t* index,
+                                                   Pack<Real, Width>* out) noexcept {
   using Raw = typename Pack<Real, Width>::Raw;
   const Real* record[Width];
   unrolled<Width>([&](auto lane) __attribute__((always_inline)) {
@@ -281,8 +282,9 @@ template <int Count, class Real, int Width, class Index>
 
 /// The reverse, added: base[stride * index[l] + f] += in[f] lane l, f < Count, one record after the other, so that an index may stand
 /// twice. Numbers that fill up the last register of a record get zeros added.
-template <int Count, class Real, int Width, class Index>
-[[gnu::always_inline]] inline void add_transposed(Real* base, int stride, const Index* index, const Pack<Real, Width>* in) noexcept {
+template <int Count, class Real, int Width>
+[[gnu::always_inline]] inline void add_transposed(Real* base, int stride, const std::uint32_t* index,
+                                                  const Pack<Real, Width>* in) noexcept {
   using Raw = typename Pack<Real, Width>::Raw;
   unrolled<(Count + Width - 1) / Width>([&](auto block) __attribute__((always_inline)) {
     constexpr int first = block * Width;

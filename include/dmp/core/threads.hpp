@@ -122,8 +122,8 @@ class Blocks {
   [[nodiscard]] std::size_t far_row(std::size_t block) const noexcept { return bounds_.back() + far_rows * block; }
 
   Blocks() = default;
-  /// Equal blocks, for particles in an order that is not ours: at most 16 of up to `most_rows`, since those that act on each other lie
-  /// apart by whole layers of the body.
+  /// Equal blocks, for particles in an order that is not ours: at most 16, more only where 16 would exceed `most_rows`, since those
+  /// that act on each other lie apart by whole layers of the body.
   explicit Blocks(std::size_t count) {
     const std::size_t blocks = std::max(std::clamp<std::size_t>(count / 4096, 1, 16), (count + most_rows - 1) / most_rows);
     bounds_.resize(blocks + 1);

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -82,12 +81,12 @@ class CheckpointWriter {
   }
 
   /// Adds a section from contiguous elements of a trivially copyable type: a vector, array or span of numbers. Names must differ.
-  template <std::ranges::contiguous_range Range>
-    requires std::ranges::sized_range<Range>
+  template <class Range>
   void add(std::string_view name, const Range& values) {
-    using Element = std::ranges::range_value_t<Range>;
+    const std::span elements(values);
+    using Element = typename decltype(elements)::value_type;
     static_assert(std::is_trivially_copyable_v<Element>, "dmp: a checkpoint holds trivially copyable elements: numbers or structs of them");
-    add_bytes(name, std::ranges::data(values), sizeof(Element), std::ranges::size(values));
+    add_bytes(name, elements.data(), sizeof(Element), elements.size());
   }
 
   /// Completes the file and puts it in place of the former one, also against a power failure. Nothing can be added after it.

@@ -26,8 +26,8 @@ namespace dmp::neighbours {
 /// take 16 bits; a block without two such rows, or of more than 65 536, has all its pairs listed at both ends.
 class PairList {
  public:
-  /// The particles that are listed: rows 0 .. owned - 1 of the source group; then rows far away from everything (Blocks::far_rows for each
-  /// block of the source group); then a ghost for each of `owner`.
+  /// The particles that are listed: rows 0 .. owned - 1 of the source group; then rows far away from everything, at least one; then a ghost
+  /// for each of `owner`.
   struct Sources {
     bool same_group;  ///< then a particle is not its own neighbour
     std::uint32_t owned, first_ghost;
@@ -51,8 +51,9 @@ class PairList {
     rows_.resize(blocks.size());
     found_.resize(blocks.ranges().size());
     std::array<float, levels> within;  // squared distance, as a fraction of the longest; rounded up
+    const double longest = cutoff + skin + grid.margin();
     for (std::size_t l = 0; l < levels; ++l) {
-      const double radius = cutoff + skin * static_cast<double>(l + 1) / levels + grid.margin(), longest = cutoff + skin + grid.margin();
+      const double radius = cutoff + skin * static_cast<double>(l + 1) / levels + grid.margin();
       within[l] = static_cast<float>(radius * radius / (longest * longest) * (1.0 + 1e-6));
     }
     for_each_block(blocks, [&](std::size_t thread, std::size_t block) {
@@ -62,9 +63,8 @@ class PairList {
       const std::size_t first = blocks.begin(block), last = blocks.end(block);
       const auto block_first = static_cast<std::uint32_t>(first);
       FarApart<Dim> far_apart;
-      if (sources.same_group && sources.once) far_apart = find_far_apart(positions, first, last, cutoff + skin + grid.margin());
+      if (sources.same_group && sources.once) far_apart = find_far_apart(positions, first, last, longest);
       const auto once_size = static_cast<std::uint32_t>(far_apart.found ? last - first : 0);
-      const std::uint32_t far = sources.owned + static_cast<std::uint32_t>(sources.same_group ? Blocks::far_rows * block : 0);
       for (std::size_t i = first; i < last; ++i) {
         const auto row = static_cast<std::uint32_t>(i);
         const std::uint32_t left_out = once_size > 0 ? block_first : row;  // those further up list it; and itself
@@ -100,7 +100,7 @@ class PairList {
           const std::uint16_t filler = far_apart.from(positions[i]);
           for (; end_once % pack != 0; ++end_once) once[end_once] = filler;
         }
-        for (; end_others % pack != 0; ++end_others) others[end_others] = far;
+        for (; end_others % pack != 0; ++end_others) others[end_others] = sources.owned;
         once.resize(end_once);
         others.resize(end_others);
       }
@@ -120,20 +120,13 @@ class PairList {
     return {{rows.once.data() + pack_ * at.first_once, pack_ * at.once[level]},
             {rows.others.data() + pack_ * at.first_other, pack_ * at.others[level]}};
   }
-  /// Calls function(row) for all entries of particle i of the block that begins at `first`.
-  template <class Function>
-  void for_each(std::size_t block, std::size_t first, std::size_t i, Function&& function) const {
-    const Neighbours lists = of(block, i);
-    for (const std::uint16_t row : lists.once) function(static_cast<std::uint32_t>(first + row));
-    for (const std::uint32_t row : lists.others) function(row);
-  }
   /// Entries of a block, what a sweep over it costs.
   [[nodiscard]] double entries(const Blocks& blocks, std::size_t block) const noexcept {
     if (at_.empty() || blocks.begin(block) == blocks.end(block)) return 0.0;
     return static_cast<double>(rows_[block].once.size() + rows_[block].others.size());
   }
   [[nodiscard]] std::size_t bytes() const noexcept {
-    std::size_t result = at_.capacity() * sizeof(At);
+    std::size_t result = at_.capacity() * sizeof(At) + rows_.capacity() * sizeof(RowsOfBlock);
     for (const auto& rows : rows_) result += rows.bytes();
     for (const auto& [found, once, others] : found_)
       result += (found.rows.capacity() + found.fraction.capacity() + others.capacity()) * sizeof(std::uint32_t) +
@@ -169,7 +162,7 @@ class PairList {
     kept.assign(rows.begin(), rows.end());
   }
 
-  /// Two particles of a block, counted from its first, of which one is out of reach, wherever in the block one is.
+  /// Two particles of a block, counted from its first, so far apart that nobody is in reach of both.
   template <int Dim>
   struct FarApart {
     bool found = false;

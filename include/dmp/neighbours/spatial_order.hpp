@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 #include <dmp/core/threads.hpp>
@@ -45,9 +46,13 @@ class SpatialOrder {
       return place;
     });
     bounds_.assign(1, 0);
-    for (int block = 1; block <= number_of_blocks; ++block)
-      if (const std::size_t end = sort_.begin(static_cast<std::size_t>(block * cells_per_block)); end > bounds_.back())
-        bounds_.push_back(end);
+    const std::size_t most = 4 * Blocks::rows_wanted(positions.size());  // where a few far away make cells wide, blocks would be few
+    static_assert(4 * Blocks::rows_wanted(std::numeric_limits<std::size_t>::max()) <= Blocks::most_rows);
+    for (int block = 1; block <= number_of_blocks; ++block) {
+      const std::size_t first = bounds_.back(), rows = sort_.begin(static_cast<std::size_t>(block * cells_per_block)) - first;
+      const std::size_t parts = (rows + most - 1) / most;
+      for (std::size_t part = 1; part <= parts; ++part) bounds_.push_back(first + rows * part / parts);
+    }
     if (bounds_.size() == 1) bounds_.push_back(0);
   }
 

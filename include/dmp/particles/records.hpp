@@ -74,8 +74,7 @@ class Records<Dim, Fields<Field...>, Precision> {
     /// The same with rows counted from `row`.
     [[nodiscard, gnu::always_inline]] Reader from(std::size_t row) const noexcept { return {data + row * stride, frame}; }
     /// Record index[l] in lane l.
-    template <class Index>
-    [[nodiscard, gnu::always_inline]] view<Lanes> gather(const Index* index) const noexcept {
+    [[nodiscard, gnu::always_inline]] view<Lanes> gather(const std::uint32_t* index) const noexcept {
       Lanes numbers_of[stride > 0 ? stride : 1];
       load_transposed<numbers>(data, stride, index, numbers_of);
       view<Lanes> record;

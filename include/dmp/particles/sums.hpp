@@ -41,8 +41,8 @@ class Sums<Dim, Fields<Field...>> {
 
     /// The same with rows counted from `row`.
     [[nodiscard, gnu::always_inline]] Adder from(std::size_t row) const noexcept { return {data + row * stride}; }
-    template <class Index, class Real, int Width>
-    [[gnu::always_inline]] void operator()(const Index* index, view<Pack<Real, Width>>& lanes) const noexcept {
+    template <class Real, int Width>
+    [[gnu::always_inline]] void operator()(const std::uint32_t* index, view<Pack<Real, Width>>& lanes) const noexcept {
       Pack<Real, Width> numbers_of[stride > 0 ? stride : 1];
       detail::for_each_number(
           lanes, [&numbers_of](auto slot, Pack<Real, Width> number) __attribute__((always_inline)) { numbers_of[slot] = number; });

@@ -158,16 +158,24 @@ template <int Dim>
 void reject_overlap(const geometry::Box<Dim>& box, const Placed<Dim>& a, const Placed<Dim>& b, const neighbours::PairList& pairs) {
   const double least = 0.5 * std::min(a.spacing, b.spacing);
   for (std::size_t block = 0; block < a.blocks.size(); ++block)
-    for (std::size_t i = a.blocks.begin(block); i < a.blocks.end(block); ++i)
-      pairs.for_each(block, a.blocks.begin(block), i, [&](std::uint32_t row) {
-        if (row >= b.positions.size() && row < b.first_ghost) return;  // fills up the pack
-        const std::size_t j = b.sources.original(row);
-        const double distance = neighbours::minimum_image<Dim>(a.positions[i] - b.positions[j], box).norm();
+    for (std::size_t i = a.blocks.begin(block); i < a.blocks.end(block); ++i) {
+      const auto check = [&](std::size_t j, double distance) {
         if (distance < least)
           throw ParameterError("scene: particles must not overlap at the start: " + a.name + " " + std::to_string(a.id[i]) + " and " +
                                b.name + " " + std::to_string(b.id[j]) + " must be >= " + to_text(least) + " m apart, got " +
                                to_text(distance));
-      });
+      };
+      const auto lists = pairs.of(block, i);
+      for (const std::uint16_t row : lists.once) {  // directly: what fills up the pack may be near behind a periodic face
+        const std::size_t j = a.blocks.begin(block) + row;
+        check(j, (a.positions[i] - b.positions[j]).norm());
+      }
+      for (const std::uint32_t row : lists.others) {
+        if (row >= b.positions.size() && row < b.first_ghost) continue;  // fills up the pack
+        const std::size_t j = b.sources.original(row);
+        check(j, neighbours::minimum_image<Dim>(a.positions[i] - b.positions[j], box).norm());
+      }
+    }
 }
 }  // namespace detail
 /// Particles closer than half their spacing at the start are a fill done twice, or two fills that overlap. Throws ParameterError.

@@ -262,9 +262,8 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
   }
   template <class G, class Sums>
   static void clear_sums(const G& g, Sums& sums) {
-    sums.resize(g.first_ghost());
+    sums.resize(g.size());
     for_each_range(g.blocks.ranges(), [&sums](std::size_t, std::size_t first, std::size_t last) { sums.set_zero(first, last); });
-    sums.set_zero(g.size(), g.first_ghost());
   }
   /// Calls store(i, particle) for every particle of a group, as a summed law has set it. All lists of the group are swept.
   template <class Law, class G, class Sums, class Store>

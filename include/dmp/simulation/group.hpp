@@ -121,8 +121,7 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
 
     /// The same with rows counted from `row`.
     [[nodiscard, gnu::always_inline]] Reader from(std::size_t row) const noexcept { return {records.from(row), constants}; }
-    template <class Index>
-    [[nodiscard, gnu::always_inline]] auto gather(const Index* index) const noexcept {
+    [[nodiscard, gnu::always_inline]] auto gather(const std::uint32_t* index) const noexcept {
       using Lanes = typename Records::Lanes;
       View<Dim, Lanes, typename Layout::seen> view;
       copy_fields(typename Layout::record{}, view, records.gather(index));

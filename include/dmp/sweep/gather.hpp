@@ -55,8 +55,8 @@ template <bool Velocity, int Dim, class T>
 /// Adds to `sums` what the laws say of particle i and all its neighbours. `i` holds the particle in all lanes; `source.gather(index)` gives
 /// the views of the particles index[0 .. width - 1]; the list fills whole packs. Laws come by value, and
 /// what the loop works on is its own, so that it stays in registers and what is constant is computed once.
-template <int Dim, class I, class Source, class Index, class Sums, class... Law>
-[[gnu::always_inline]] inline void sum_pairs(const I& particle, const Source source, std::span<const Index> neighbours, Sums& total,
+template <int Dim, class I, class Source, class Sums, class... Law>
+[[gnu::always_inline]] inline void sum_pairs(const I& particle, const Source source, std::span<const std::uint32_t> neighbours, Sums& total,
                                              const Law... law) noexcept {
   constexpr std::size_t width = std::remove_cvref_t<decltype(particle.position[0])>::width;
   const I i = particle;
@@ -72,15 +72,17 @@ template <int Dim, class I, class Source, class Index, class Sums, class... Law>
 /// The same for pairs that are listed once: what the laws say of the partners goes to `add(index, sums)`. The laws are asked twice, once
 /// from either side; what is the same for both the compiler computes once. Particles of a source with Source::Constants have these in
 /// common.
-template <int Dim, class I, class Source, class Index, class Sums, class Add, class... Law>
-[[gnu::always_inline]] inline void sum_pairs_of_both(const I& particle, const Source source, std::span<const Index> neighbours,
+template <int Dim, class I, class Source, class Sums, class Add, class... Law>
+[[gnu::always_inline]] inline void sum_pairs_of_both(const I& particle, const Source source, std::span<const std::uint16_t> neighbours,
                                                      Sums& total, const Add add, const Law... law) noexcept {
   constexpr bool velocity = (Law::uses_velocity || ...);
   constexpr std::size_t width = std::remove_cvref_t<decltype(particle.position[0])>::width;
   const I i = particle;
   Sums sums = total;
   for (std::size_t k = 0; k < neighbours.size(); k += width) {
-    auto j = source.gather(neighbours.data() + k);
+    std::uint32_t rows[width];
+    unrolled<width>([&](auto lane) __attribute__((always_inline)) { rows[lane] = neighbours[k + lane]; });
+    auto j = source.gather(rows);
     if constexpr (requires { typename Source::Constants; }) copy_fields(typename Source::Constants{}, j, i);
     const auto pair = pair_of<velocity, Dim>(source, i, j);
     (law.add(pair, i, j, sums), ...);
@@ -88,7 +90,7 @@ template <int Dim, class I, class Source, class Index, class Sums, class Add, cl
     Sums of_j;
     set_zero(of_j, -0.0);
     (law.add(seen_from_j, j, i, of_j), ...);
-    add(neighbours.data() + k, of_j);
+    add(rows, of_j);
   }
   total = sums;
 }
