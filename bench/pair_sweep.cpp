@@ -102,8 +102,7 @@ struct Source {
   typename Sample<Precision>::Records::Reader records;
 
   [[gnu::always_inline]] Source from(std::size_t row) const noexcept { return {records.from(row)}; }
-  template <class Index>
-  [[gnu::always_inline]] Seen gather(const Index* index) const noexcept {
+  [[gnu::always_inline]] Seen gather(const std::uint32_t* index) const noexcept {
     Seen view;
     copy_fields(Record{}, view, records.gather(index));
     view.mass = mass;
@@ -150,7 +149,9 @@ void pair_sweep_by_hand(benchmark::State& state) {
       Lanes a[3] = {0.0, 0.0, 0.0}, rate = 0.0;
       const auto sum = [&](const auto& list, const auto& from, auto of_both) __attribute__((always_inline)) {
         for (std::size_t k = 0; k < list.size(); k += Lanes::width) {
-          const auto q = from.gather(list.data() + k);
+          std::uint32_t rows[Lanes::width];
+          unrolled<Lanes::width>([&](auto lane) __attribute__((always_inline)) { rows[lane] = list[k + lane]; });
+          const auto q = from.gather(rows);
           const auto apart = records.separation(p.position, q.position);
           const Lanes x = apart[0], y = apart[1], z = apart[2];
           const Lanes u = p.velocity[0] - q.velocity[0], v = p.velocity[1] - q.velocity[1], w = p.velocity[2] - q.velocity[2];
@@ -163,7 +164,7 @@ void pair_sweep_by_hand(benchmark::State& state) {
             View<3, Lanes, Law::writes> reaction;
             reaction.acceleration = {{force * x, force * y, force * z}};
             reaction.density_rate = factor * approach;
-            add(list.data() + k, reaction);
+            add(rows, reaction);
           }
         }
       };
