@@ -12,7 +12,7 @@ With --full FOLDER instead: what the published sizes found, from FOLDER/NAME/res
 minutes to an hour:
 
     elastic_sphere --full --threads 1 --output FOLDER/elastic_sphere      (and core_shell_sphere, viscoelastic_sphere, amorphous_solid)
-    viscoelastic_sphere --full --resolution 32 --threads 1 --output FOLDER/viscoelastic_sphere_32
+    viscoelastic_sphere --full --resolution 16 --threads 1 --output FOLDER/viscoelastic_sphere_16
 """
 import csv
 import json
@@ -98,7 +98,7 @@ def limits(program):
     return "\n".join(lines)
 
 
-FULL = ("elastic_sphere", "viscoelastic_sphere", "viscoelastic_sphere_32", "core_shell_sphere", "amorphous_solid")
+FULL = ("elastic_sphere", "viscoelastic_sphere", "viscoelastic_sphere_16", "core_shell_sphere", "amorphous_solid")
 CASES = {"HC-SS": "A10, A11", "SC-HS": "A12, A13", "plates": "plates differ in force"}  # of errors whose names do not begin with the case
 
 
