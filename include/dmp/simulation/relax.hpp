@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <dmp/core/require.hpp>
 #include <dmp/core/required.hpp>
 #include <dmp/core/simulation_error.hpp>
@@ -97,13 +97,13 @@ struct Rotation {
     if (!(all.mass > 0.0)) return;
     const Vector<Dim> shift = all.position / all.mass;
     const Arms arm = arms(shift);
-    const Eigen::LDLT<Eigen::Matrix<double, turns, turns>> inertia(all.inertia - all.mass * (arm.transpose() * arm));
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, turns, turns>> inertia(all.inertia - all.mass * (arm.transpose() * arm));
     const auto solve = [&inertia](const Turn& right) {  // without the turns that move nothing: of a row of beads about itself
-      const Turn pivots = inertia.vectorD();
-      Turn result = inertia.matrixL().solve(inertia.transpositionsP() * right);
-      for (int k = 0; k < turns; ++k) result[k] = pivots[k] > 1e-12 * pivots.maxCoeff() ? result[k] / pivots[k] : 0.0;
-      inertia.matrixU().solveInPlace(result);
-      return Turn(inertia.transpositionsP().transpose() * result);
+      Turn result = Turn::Zero();
+      for (int k = 0; k < turns; ++k)
+        if (inertia.eigenvalues()[k] > 1e-12 * inertia.eigenvalues()[turns - 1])
+          result += inertia.eigenvectors().col(k).dot(right) / inertia.eigenvalues()[k] * inertia.eigenvectors().col(k);
+      return result;
     };
     centre += shift;
     speed = solve(all.spin - arm.transpose() * all.velocity);
