@@ -48,7 +48,7 @@ template <class Tag, class Scene, class Law>
     if constexpr (is_contact) {  // the forces of other planes have no part along this normal, or one against it
       const Vector<dim> normal = to_vector<dim>(law.normal), all = g.template get<ContactForce>()[i];
       const double part = normal.dot(all);
-      return part > 1e-9 * all.norm() ? Vector<dim>(part * normal) : Vector<dim>(Vector<dim>::Zero());
+      return (part > 1e-9 * all.norm() ? part : 0.0) * normal;  // a choice of vectors GCC 12 makes wrong code of with AVX-512
     } else {
       return g.mass * to_vector<dim>(law.acceleration(scene.engine().subject(g, i, time, 0.0)));
     }
