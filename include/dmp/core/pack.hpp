@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -7,13 +8,12 @@
 #include <dmp/core/unrolled.hpp>
 
 /// SIMD packs from the compilers' vector extension: the operators of double, element by element. The width follows the target that
-/// the user compiles for (AVX-512, AVX, SSE2, NEON); where there is none it is one and the same code runs.
+/// the user compiles for (AVX, SSE2, NEON); where there is none it is one and the same code runs. AVX-512 brings twice the registers and
+/// its instructions to packs of 32 bytes; packs of 64 make sweeps slower (docs/performance.md).
 namespace dmp {
 
 namespace detail {
-#if defined(__AVX512F__)
-inline constexpr int vector_bytes = 64;
-#elif defined(__AVX__)
+#if defined(__AVX__)
 inline constexpr int vector_bytes = 32;
 #elif defined(__SSE2__) || defined(__ARM_NEON)
 inline constexpr int vector_bytes = 16;
@@ -32,7 +32,7 @@ struct Integer<4> {
 };
 }  // namespace detail
 
-/// Lanes of the target's widest vector register: 8, 4, 2 or 1 doubles; twice as many floats.
+/// Lanes of a pack that fills a register: 4, 2 or 1 doubles; twice as many floats.
 template <class Real>
 inline constexpr int native_width = detail::vector_bytes == 0 ? 1 : detail::vector_bytes / static_cast<int>(sizeof(Real));
 
@@ -218,6 +218,56 @@ template <int Step, class Raw, int Width>
     transpose_steps<2 * Step>(row);
   }
 }
+/// Side by side, the pieces from number `first` on of every Size-th record.
+template <class Real, int Width, int Size>
+[[nodiscard, gnu::always_inline]] inline auto pieces(const Real* const* record, int first) noexcept {
+  using Piece = typename Pack<Real, Size>::Raw;
+  static_assert(Width == Size || Width == 2 * Size);
+  Piece low;
+  __builtin_memcpy(&low, record[0] + first, sizeof(Piece));
+  if constexpr (Width == Size) {
+    return low;
+  } else {
+    Piece high;
+    __builtin_memcpy(&high, record[Size] + first, sizeof(Piece));
+#if defined(__AVX__) && !defined(__clang__)  // one instruction, where GCC 12 makes two of the shuffle
+    if constexpr (sizeof(Piece) == 16) {
+      using Half __attribute__((vector_size(16))) = double;
+      const auto both = __builtin_ia32_pd256_pd(__builtin_bit_cast(Half, low));
+      using Raw = typename Pack<Real, Width>::Raw;
+      return __builtin_bit_cast(Raw, __builtin_ia32_vinsertf128_pd256(both, __builtin_bit_cast(Half, high), 1));
+    }
+#endif
+    return [&]<std::size_t... Lane>(std::index_sequence<Lane...>) __attribute__((always_inline)) {
+      return __builtin_shufflevector(low, high, static_cast<int>(Lane)...);
+    }
+    (std::make_index_sequence<Width>{});
+  }
+}
+/// In pieces of four numbers: a0 b0 a1 b1 and a2 b2 a3 b3.
+template <class Raw, std::size_t... Lane>
+[[gnu::always_inline]] inline void zip(Raw& a, Raw& b, std::index_sequence<Lane...>) noexcept {
+  constexpr auto from = [](int lane, int half) {
+    return lane % 2 * static_cast<int>(sizeof...(Lane)) + lane / 4 * 4 + half * 2 + lane % 4 / 2;
+  };
+  const Raw first = __builtin_shufflevector(a, b, from(static_cast<int>(Lane), 0)...);
+  const Raw second = __builtin_shufflevector(a, b, from(static_cast<int>(Lane), 1)...);
+  a = first;
+  b = second;
+}
+/// Rows of pieces of `Size` numbers: number f of a piece of row r becomes number r of that piece of row f.
+template <class Raw, int Size>
+[[gnu::always_inline]] inline void transpose_pieces(Raw (&row)[Size]) noexcept {
+  constexpr auto lanes = std::make_index_sequence<sizeof(Raw) / sizeof(std::declval<Raw&>()[0])>{};
+  if constexpr (Size == 2) exchange<1>(row[0], row[1], lanes);
+  if constexpr (Size == 4) {  // what single instructions do
+    zip(row[0], row[1], lanes);
+    zip(row[2], row[3], lanes);
+    exchange<2>(row[0], row[2], lanes);
+    exchange<2>(row[1], row[3], lanes);
+    std::swap(row[1], row[2]);
+  }
+}
 template <int Step, class Raw, int Width>
 [[gnu::always_inline]] inline void sum_steps(Raw (&row)[Width]) noexcept {
   if constexpr (Step < Width) {
@@ -260,21 +310,23 @@ template <int Width, class Number>
 }
 
 /// Loads field by field what lies record by record: out[f] lane l = base[stride * index[l] + f], f < Count. `stride` is a multiple
-/// of the width: whole registers are loaded and transposed, which on AVX is 3 to 4 times as fast as gathering numbers one by one.
+/// of the width: pieces of 16 bytes are put side by side and transposed among themselves, since no instruction that crosses them is cheap.
+/// On AVX that is 3 to 4 times as fast as gathering numbers one by one.
 template <int Count, class Real, int Width>
 [[gnu::always_inline]] inline void load_transposed(const Real* base, int stride, const std::uint32_t* index,
                                                    Pack<Real, Width>* out) noexcept {
   using Raw = typename Pack<Real, Width>::Raw;
+  constexpr int piece = std::min(Width, 16 / static_cast<int>(sizeof(Real)));  // numbers
   const Real* record[Width];
   unrolled<Width>([&](auto lane) __attribute__((always_inline)) {
     record[lane] = base + static_cast<std::size_t>(index[lane]) * static_cast<unsigned>(stride);
   });
-  unrolled<(Count + Width - 1) / Width>([&](auto block) __attribute__((always_inline)) {
-    constexpr int first = block * Width;
-    Raw row[Width];
-    unrolled<Width>([&](auto lane) __attribute__((always_inline)) { __builtin_memcpy(&row[lane], record[lane] + first, sizeof(Raw)); });
-    detail::transpose_steps<1>(row);
-    unrolled<(Count - first < Width ? Count - first : Width)>([&](auto field) __attribute__((always_inline)) {
+  unrolled<(Count + piece - 1) / piece>([&](auto block) __attribute__((always_inline)) {
+    constexpr int first = block * piece;
+    Raw row[piece];
+    unrolled<piece>([&](auto r) __attribute__((always_inline)) { row[r] = detail::pieces<Real, Width, piece>(record + r, first); });
+    detail::transpose_pieces(row);
+    unrolled<(Count - first < piece ? Count - first : piece)>([&](auto field) __attribute__((always_inline)) {
       out[first + field] = Pack<Real, Width>(row[field]);
     });
   });

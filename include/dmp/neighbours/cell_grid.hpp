@@ -220,7 +220,7 @@ class CellGrid {
     }
   }
 
-  static constexpr int packs_at_once = Lanes::width >= 16 ? 1 : 2;
+  static constexpr int packs_at_once = 2;
 
   Cells<Dim> cells_;
   CountingSort sort_;
