@@ -5,8 +5,9 @@ time goes, and how it depends on the skin and on the number of particles.
     cmake --preset release && cmake --build --preset release --target report
 
 Linux only. It takes some ten minutes and counts only on an idle machine. A ratio is taken within each round; printed are the median over
-the rounds and, in brackets, the least and the largest. Sweeps are timed as the yardstick does it, the best of 7. Steps are means over 40
-and more of them: processor time where one thread is at work, else time on the clock; how threads speed it up is all time on the clock.
+the rounds and, in brackets, the least and the largest. Sweeps are timed as the yardstick does it, the best of 7 in succession, which find
+in the cache what they left there. Steps are means over 40 and more of them: processor time where one thread is at work, else time on the
+clock; how threads speed it up is all time on the clock.
 The yardstick is a program apart, of plain and of hand-vectorised loops; what refers to it is left out without it. How much work several
 threads can do at the best is measured as well: by as many programs of one thread, which share nothing but the machine.
 """
@@ -93,7 +94,7 @@ def run_yardstick(program):
 def run_benchmarks(program, pattern, repetitions, least_seconds):
     """Counters by benchmark and name, the least of the repetitions; and the resident memory of the program."""
     command = [program, f"--benchmark_filter={pattern}", f"--benchmark_repetitions={repetitions}", f"--benchmark_min_time={least_seconds}",
-               f"--benchmark_enable_random_interleaving={str(repetitions > 1).lower()}", "--benchmark_format=json"]
+               "--benchmark_format=json"]
     text, resident, _ = execute(command)
     result = {}
     for run in json.loads(text)["benchmarks"]:
@@ -270,8 +271,8 @@ def report(rounds, compile_cost, options, others):
     has_yardstick = options.yardstick is not None
     conditions = (
         f"{options.repeats} rounds on {len(os.sched_getaffinity(0))} processors, of which others kept {others:.1f} busy meanwhile. Medians "
-        "(least to largest); ratios are taken within a round. Sweeps: best of 7, as the yardstick. Steps: means over 40 or more, processor "
-        "time, but for threads. Compiling: the better of two." + ("" if has_yardstick else " No yardstick was given."))
+        "(least to largest); ratios are taken within a round. Sweeps: best of 7 in succession, as the yardstick. Steps: means over 40 or "
+        "more, processor time, but for threads. Compiling: the better of two." + ("" if has_yardstick else " No yardstick was given."))
     return {"conditions": conditions, "bounds": bounds(of, compile_cost, has_yardstick), "threads": threads(of),
             "sweeps": sweeps(of, has_yardstick), "profile": profile(of), "skin": skins(of), "growth": growth(of, options.large),
             "compiling": compile_table(compile_cost)}
