@@ -143,6 +143,9 @@ template <int Dim, bool Periodic, bool PositionsAlone = false, class React, clas
   Row<Dim> force;
   unrolled<Row<Dim>::registers>([&](auto r) __attribute__((always_inline)) { force.part[r] = 0.0; });
   for (std::size_t k = 0; k < bonds.size; k += width) {
+    __builtin_prefetch(bonds.partner + k + 256);  // of particles to come
+    __builtin_prefetch(bonds.reaction + k + 256);
+    __builtin_prefetch(bonds.rest_length + k + 256);
     Row<Dim> separation[width];
     Lanes squares[width], approaches[width];
     unrolled<width>([&](auto lane) __attribute__((always_inline)) {

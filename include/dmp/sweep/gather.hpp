@@ -58,10 +58,13 @@ template <bool Velocity, int Dim, class T>
 template <int Dim, class I, class Source, class Sums, class... Law>
 [[gnu::always_inline]] inline void sum_pairs(const I& particle, const Source source, std::span<const std::uint32_t> neighbours, Sums& total,
                                              const Law... law) noexcept {
-  constexpr std::size_t width = std::remove_cvref_t<decltype(particle.position[0])>::width;
+  using T = std::remove_cvref_t<decltype(particle.position[0])>;
+  constexpr std::size_t width = T::width;
   const I i = particle;
   Sums sums = total;
   for (std::size_t k = 0; k < neighbours.size(); k += width) {
+    // Single precision has all pairs here, and is through with them before the next ones have come unasked.
+    if constexpr (std::is_same_v<T, Pack<float, T::width>>) __builtin_prefetch(neighbours.data() + k + 512);
     const auto j = source.gather(neighbours.data() + k);
     const auto pair = pair_of<(Law::uses_velocity || ...), Dim>(source, i, j);
     (law.add(pair, i, j, sums), ...);
