@@ -7,7 +7,6 @@
 #include <limits>
 #include <type_traits>
 #include <utility>
-#include <Eigen/Eigenvalues>
 #include <dmp/bond/concept.hpp>
 #include <dmp/core/aligned.hpp>
 #include <dmp/core/math.hpp>
@@ -19,6 +18,21 @@
 #include <dmp/sweep/gather.hpp>
 
 namespace dmp::simulation::detail {
+
+/// Of a symmetric matrix, to about 1e-8 of its largest magnitude. In closed form, since every scene would have to read Eigen's solvers:
+/// with H = q 1 + p B, q = tr H/d, tr B^2 = d (d - 1), it is q + p in the plane, q + 2 p cos(arccos(det B/2)/3), 3 det B = tr B^3, in space.
+/// O. K. Smith, Commun. ACM 4 (1961) 168, doi:10.1145/355578.366316.
+template <int Dim>
+[[nodiscard]] double largest_eigenvalue(const Eigen::Matrix<double, Dim, Dim>& h) noexcept {
+  using Matrix = Eigen::Matrix<double, Dim, Dim>;
+  if constexpr (Dim == 1) return h(0, 0);
+  const double q = h.trace() / Dim;
+  const Matrix deviator = h - q * Matrix::Identity();
+  const double p = std::sqrt(deviator.squaredNorm() / (Dim * (Dim - 1)));
+  if (Dim == 2 || !(p > 0.0)) return q + p;
+  const Matrix b = deviator / p;
+  return q + 2.0 * p * std::cos(std::acos(std::clamp((b * b * b).trace() / 6.0, -1.0, 1.0)) / 3.0);
+}
 
 /// How bonds hold each particle of a group, per mass: a symmetric matrix for each row, springs [1/s^2] or dashpots [1/s].
 template <int Dim>
@@ -48,11 +62,7 @@ class Holds {
     return matrix;
   }
   /// Largest eigenvalue; and what it does not exceed, much faster: the largest sum of magnitudes in a line (Gershgorin).
-  [[nodiscard]] double largest(std::size_t row) const {
-    if (empty()) return 0.0;
-    if constexpr (Dim == 1) return data_[row * stride];
-    else return Eigen::SelfAdjointEigenSolver<Matrix>().computeDirect(of(row), Eigen::EigenvaluesOnly).eigenvalues()[Dim - 1];
-  }
+  [[nodiscard]] double largest(std::size_t row) const noexcept { return empty() ? 0.0 : largest_eigenvalue<Dim>(of(row)); }
   [[nodiscard]] double at_most(std::size_t row) const noexcept {
     if (empty()) return 0.0;
     return of(row).cwiseAbs().colwise().sum().maxCoeff();
