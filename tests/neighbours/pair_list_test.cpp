@@ -138,7 +138,7 @@ struct Search {
         wrong += !(begins(read.once, lists.once) && begins(read.others, lists.others));
         for (const bool listed_once : {true, false}) {
           const auto seen = listed_once ? images(rows_once(block, i, level)) : images(read.others),
-                     near = expected(listed_once, block, i, cutoff + skin * static_cast<double>(level + 1) / PairList::levels);
+                     near = expected(listed_once, block, i, cutoff + skin * PairList::share[level]);
           wrong += !std::includes(seen.begin(), seen.end(), near.begin(), near.end());
         }
       }
@@ -264,7 +264,7 @@ TEST_CASE("what the skin is for: at each level every pair is there that can act 
   }
 }
 
-TEST_CASE("the lower levels are shorter: a list just built is read as far as a quarter of the skin") {
+TEST_CASE("the lower levels are shorter: a list just built is read as far as an eighth of the skin") {
   Search<3> search{.of = test::scattered<3>(600, 1.0, 1),
                    .sources = test::scattered<3>(600, 1.0, 1),
                    .box = test::cube<3>(1.0, {true, true, true}),
@@ -278,7 +278,7 @@ TEST_CASE("the lower levels are shorter: a list just built is read as far as a q
       entries[level] += static_cast<double>(search.list.of(block, i, level).once.size() + search.list.of(block, i, level).others.size());
   });
   for (std::size_t level = 0; level < PairList::levels; ++level) {
-    const double radius = 0.2 + 0.1 * static_cast<double>(level + 1) / PairList::levels;
+    const double radius = 0.2 + 0.1 * PairList::share[level];
     CHECK(entries[level] / entries.back() ==
           doctest::Approx(std::pow(radius / 0.3, 3)).epsilon(0.15));  // packs of four make the short ones longer
   }

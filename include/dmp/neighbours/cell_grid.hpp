@@ -155,7 +155,7 @@ class CellGrid {
     }
     found.make_room(candidates + (packs_at_once + 1) * Lanes::width);
     const Test test(*this, query);
-    for (std::size_t k = 0; k < rows.count; ++k) {
+    for (std::size_t k = 0; candidates > 0 && k < rows.count; ++k) {
       if (exact_.empty()) found.size = test(first[k], last[k], found.rows.data(), found.fraction.data(), found.size);
       else test_exactly(first[k], last[k], query, found);
     }

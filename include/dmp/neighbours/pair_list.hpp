@@ -38,8 +38,16 @@ class PairList {
     [[nodiscard]] std::uint32_t row(std::uint32_t k) const noexcept { return k < owned ? k : k - owned + first_ghost; }
     [[nodiscard]] std::uint32_t original(std::uint32_t row) const noexcept { return row < owned ? row : owner[row - first_ghost]; }
   };
-  static constexpr std::size_t levels =
-      4;  ///< of use of the skin: pairs of level l act once (l + 1)/levels of the skin is used up, at most
+  /// Pairs of level l cannot act before the share of level l - 1 of the skin has been used up. Most particles use up little until lists wear
+  /// out somewhere.
+  static constexpr std::array<double, 4> share{0.125, 0.35, 0.65, 1.0};
+  static constexpr std::size_t levels = share.size();
+  /// How far a list must be read when `used` of the skin has been used up.
+  [[nodiscard]] static constexpr std::size_t level_at(double used) noexcept {
+    std::size_t level = 0;
+    while (level + 1 < levels && !(used <= share[level])) ++level;
+    return level;
+  }
 
   /// `grid` holds the owned sources, then the ghosts. Pairs within `cutoff` + `skin` [m] are listed, and
   /// perhaps some that are farther apart by less than the margin of the grid.
@@ -53,7 +61,7 @@ class PairList {
     std::array<float, levels> within;  // squared distance, as a fraction of the longest; rounded up
     const double longest = cutoff + skin + grid.margin();
     for (std::size_t l = 0; l < levels; ++l) {
-      const double radius = cutoff + skin * static_cast<double>(l + 1) / levels + grid.margin();
+      const double radius = cutoff + skin * share[l] + grid.margin();
       within[l] = static_cast<float>(radius * radius / (longest * longest) * (1.0 + 1e-6));
     }
     for_each_block(blocks, [&](std::size_t thread, std::size_t block) {
@@ -113,7 +121,7 @@ class PairList {
     std::span<const std::uint16_t> once;    ///< of the same block, further down, counted from its first row: the law serves both
     std::span<const std::uint32_t> others;  ///< those that are listed at each end
   };
-  /// Of particle i, which lies in `block`, the neighbours that can act while no more than (level + 1)/levels of the skin is used up.
+  /// Of particle i, which lies in `block`, the neighbours that can act while no more than share[level] of the skin is used up.
   [[nodiscard, gnu::always_inline]] Neighbours of(std::size_t block, std::size_t i, std::size_t level = levels - 1) const noexcept {
     const At& at = at_[i];
     const RowsOfBlock& rows = rows_[block];

@@ -202,12 +202,6 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
         if (active.item.substepped == Fast) active.recall.begin(active.item.law, dt);
     });
   }
-  /// How far the lists of a block are read.
-  template <class G>
-  [[nodiscard, gnu::always_inline]] static std::uint8_t level_of(const G& g, std::size_t block) noexcept {
-    if constexpr (LayoutOf<G>::has_pairs) return g.level[block];
-    else return 0;
-  }
   /// What the pairs of particle i say, which lies in `block`.
   template <class G, class Sums, class Add>
   [[gnu::always_inline]] void sum_all_pairs(const G& g, std::size_t block, std::size_t i, Sums& sums, const Add& add) const noexcept {
@@ -218,9 +212,9 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
       if constexpr (is_interaction<I>)
         active.item.laws.apply([&](const auto&... law) __attribute__((always_inline)) {
           if constexpr (std::is_same_v<Tag, typename I::A>)
-            pairs<typename I::B>(g, block, self, active.of_a.of(block, i, level_of(g, block)), sums, add, law...);
+            pairs<typename I::B>(g, block, self, active.of_a.of(block, i, g.level[i]), sums, add, law...);
           else if constexpr (std::is_same_v<Tag, typename I::B>)
-            pairs<typename I::A>(g, block, self, active.of_b.of(block, i, level_of(g, block)), sums, add, law...);
+            pairs<typename I::A>(g, block, self, active.of_b.of(block, i, g.level[i]), sums, add, law...);
         });
     });
   }
@@ -280,9 +274,9 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
           using I = std::remove_cvref_t<decltype(active.item)>;
           if constexpr (detail::is_summed_over<I>) {
             if constexpr (std::is_same_v<typename G::Tag, typename I::A>)
-              pairs<typename I::B>(g, block, self, active.of_a.of(block, i, level_of(g, block)), sums, add, law);
+              pairs<typename I::B>(g, block, self, active.of_a.of(block, i, g.level[i]), sums, add, law);
             else if constexpr (std::is_same_v<typename G::Tag, typename I::B>)
-              pairs<typename I::A>(g, block, self, active.of_b.of(block, i, level_of(g, block)), sums, add, law);
+              pairs<typename I::A>(g, block, self, active.of_b.of(block, i, g.level[i]), sums, add, law);
           }
         });
         View<Dim, double, unite<typename C::seen, typename Law::sets>> particle;

@@ -31,7 +31,7 @@ struct Neighbourhood<Dim, true> {
   neighbours::CellGrid<Dim> grid{};
   AlignedVector<Vector<Dim>> at_list_build{};             ///< positions when the neighbour lists were built
   std::vector<std::size_t> first_run{};                   ///< of each block, of those whose displacements RelativeMotion wants
-  std::vector<std::uint8_t> level{};                      ///< of each block: how far its lists must be read (PairList)
+  std::vector<std::uint8_t> level{};                      ///< of each particle: how far its lists must be read (PairList)
 };
 }  // namespace detail
 

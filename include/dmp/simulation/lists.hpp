@@ -88,11 +88,12 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
       if (wear.farthest > longest_cutoff_) return true;  // time to go back into the periodic box
       for_each_group_in_pairs([this](auto& g) {
         for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-          constexpr auto levels = static_cast<double>(neighbours::PairList::levels);
-          double used = 0.0;
-          for (const auto& run : runs_of(g, block)) used = std::max(used, relative_motion_.used(run.cell));
-          const double level = skin_ > 0.0 ? std::ceil(used / skin_ * levels) - 1.0 : levels - 1.0;
-          g.level[block] = static_cast<std::uint8_t>(std::clamp(level, 0.0, levels - 1.0));
+          const auto runs = runs_of(g, block);
+          for (std::size_t r = 0; r < runs.size(); ++r) {
+            const std::size_t end = r + 1 < runs.size() ? runs[r + 1].first : g.blocks.end(block);
+            const std::size_t level = neighbours::PairList::level_at(relative_motion_.used(runs[r].cell) / skin_);
+            std::fill(&g.level[runs[r].first], g.level.data() + end, static_cast<std::uint8_t>(level));
+          }
         });
       });
     }
@@ -207,7 +208,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
       if constexpr (LayoutOf<G>::has_pairs) {
         if constexpr (G::Mobility::moves) g.at_list_build = g.positions();
         relative_motion_.follow(g.blocks, g.positions(), g.first_run);
-        g.level.assign(g.blocks.size(), 0);
+        g.level.assign(g.size(), 0);
       }
     });
   }
