@@ -230,7 +230,7 @@ template <class Real, int Width, int Size>
   } else {
     Piece high;
     __builtin_memcpy(&high, record[Size] + first, sizeof(Piece));
-#if defined(__AVX__) && !defined(__clang__)  // one instruction, where GCC 12 makes two of the shuffle
+#if defined(__AVX__) && !defined(__clang__)  // one instruction, where GCC 12 makes two of the shuffle for AVX-512
     if constexpr (sizeof(Piece) == 16) {
       using Half __attribute__((vector_size(16))) = double;
       const auto both = __builtin_ia32_pd256_pd(__builtin_bit_cast(Half, low));

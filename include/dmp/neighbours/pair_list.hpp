@@ -66,8 +66,7 @@ class PairList {
     }
     for_each_block(blocks, [&](std::size_t thread, std::size_t block) {
       auto& [found, once, others] = found_[thread];
-      once.clear();
-      others.clear();
+      std::size_t end_once = 0, end_others = 0;  // of the lists of this block
       const std::size_t first = blocks.begin(block), last = blocks.end(block);
       const auto block_first = static_cast<std::uint32_t>(first);
       FarApart<Dim> far_apart;
@@ -80,12 +79,11 @@ class PairList {
         grid.find(positions[i], cutoff + skin, found, {left_out, sources.same_group ? row + 1 - left_out : 0});
         name_rows(found, row, sources, excluded);
         At& at = at_[i];
-        at.first_once = static_cast<std::uint32_t>(once.size() / pack);
-        at.first_other = static_cast<std::uint32_t>(others.size() / pack);
-        const std::size_t begin_once = once.size(), begin_others = others.size();
-        std::size_t end_once = begin_once, end_others = begin_others;
-        once.resize(begin_once + found.size + pack + Lanes::width);
-        others.resize(begin_others + found.size + pack + Lanes::width);
+        at.first_once = static_cast<std::uint32_t>(end_once / pack);
+        at.first_other = static_cast<std::uint32_t>(end_others / pack);
+        const std::size_t begin_once = end_once, begin_others = end_others;
+        make_room(once, end_once + found.size + pack + Lanes::width);
+        make_room(others, end_others + found.size + pack + Lanes::width);
         for (std::size_t l = 0; l < levels; ++l) {
           const Lanes from(l > 0 ? within[l - 1] : 0.0f), to(within[l]);
           for (std::size_t k = 0; k < found.size; k += Lanes::width) {
@@ -109,11 +107,9 @@ class PairList {
           for (; end_once % pack != 0; ++end_once) once[end_once] = filler;
         }
         for (; end_others % pack != 0; ++end_others) others[end_others] = sources.owned;
-        once.resize(end_once);
-        others.resize(end_others);
       }
-      keep(once, rows_[block].once);
-      keep(others, rows_[block].others);
+      keep<std::uint16_t>({once.data(), end_once}, rows_[block].once);
+      keep<std::uint32_t>({others.data(), end_others}, rows_[block].others);
     });
   }
 
@@ -160,9 +156,13 @@ class PairList {
     AlignedVector<std::uint16_t> once;  // of a block
     AlignedVector<std::uint32_t> others;
   };
+  template <class Row>
+  static void make_room(AlignedVector<Row>& rows, std::size_t count) {
+    if (rows.size() < count) rows.resize(2 * count);
+  }
   /// Copies with a margin of 1/32 for the next lists, where a vector that grows would take twice what is needed.
   template <class Row>
-  static void keep(const AlignedVector<Row>& rows, AlignedVector<Row>& kept) {
+  static void keep(std::span<const Row> rows, AlignedVector<Row>& kept) {
     if (kept.capacity() < rows.size()) {
       kept = {};
       kept.reserve(rows.size() + rows.size() / 32);

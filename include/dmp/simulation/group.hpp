@@ -136,9 +136,9 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
   [[nodiscard]] Reader reader() const noexcept { return {records.reader(), constants}; }
   /// Of a row that a sweep comes to soon: its neighbours are scattered, so that nothing else foretells it.
   [[gnu::always_inline]] void prefetch(std::size_t row) noexcept {
-    row = std::min(row, records.size() - 1);
+    if (row >= size()) return;
     __builtin_prefetch(records.data() + row * Records::stride, 0, 2);
-    if constexpr (Layout::sums_in_memory) __builtin_prefetch(sums.data() + row * Sums::stride, 1, 2);
+    if constexpr (Layout::sums_in_memory && Precision::pairs_once) __builtin_prefetch(sums.data() + row * Sums::stride, 1, 2);
   }
 
   std::string name;

@@ -73,7 +73,7 @@ template <class Tag, class Scene, class Law>
   if (!(sums.size > 0.0)) return load;
   load.centre = sums.moment / sums.size;
   const double total = sums.force.norm();
-  const Vector<dim> along = total > 0.0 ? Vector<dim>(sums.force / total) : Vector<dim>(Vector<dim>::Zero());
+  const Vector<dim> along = (total > 0.0 ? 1.0 / total : 0.0) * sums.force;
   for (std::size_t i = 0; i < g.size(); ++i)
     if (force(i).squaredNorm() > 0.0) {
       const Vector<dim> from = g.positions()[i] - load.centre;
