@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 #include <vector>
 #include <benchmark/benchmark.h>
 #include <dmp/dmp.hpp>
@@ -122,7 +123,7 @@ void pair_sweep_composed(benchmark::State& state) {
   const Source<Precision> source{s.records.reader()};
   for (auto _ : state)
     s.for_each([&](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] std::size_t first,
-                   [[maybe_unused]] const auto& add) {
+                   [[maybe_unused]] const auto& add) __attribute__((always_inline)) {
       Seen self;
       copy_fields(Record{}, self, s.records.template spread<Lanes>(i));
       self.mass = mass;
@@ -144,11 +145,12 @@ void pair_sweep_by_hand(benchmark::State& state) {
   const auto records = s.records.reader();
   for (auto _ : state)
     s.for_each([&](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] std::size_t first,
-                   [[maybe_unused]] const auto& add) {
+                   [[maybe_unused]] const auto& add) __attribute__((always_inline)) {
       const auto p = s.records.template spread<Lanes>(i);
       Lanes a[3] = {0.0, 0.0, 0.0}, rate = 0.0;
       const auto sum = [&](const auto& list, const auto& from, auto of_both) __attribute__((always_inline)) {
         for (std::size_t k = 0; k < list.size(); k += Lanes::width) {
+          if constexpr (std::is_same_v<Precision, precision::Single>) __builtin_prefetch(list.data() + k + 512);
           std::uint32_t rows[Lanes::width];
           unrolled<Lanes::width>([&](auto lane) __attribute__((always_inline)) { rows[lane] = list[k + lane]; });
           const auto q = from.gather(rows);

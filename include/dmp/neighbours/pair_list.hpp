@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -50,11 +51,13 @@ class PairList {
   }
 
   /// `grid` holds the owned sources, then the ghosts. Pairs within `cutoff` + `skin` [m] are listed, and
-  /// perhaps some that are farther apart by less than the margin of the grid.
+  /// perhaps some that are farther apart by less than the margin of the grid. `pack` is a power of two.
   template <int Dim>
   void build(const Blocks& blocks, std::span<const Vector<Dim>> positions, const CellGrid<Dim>& grid, double cutoff, double skin,
              const Sources& sources, const Exclusions& excluded, std::size_t pack) {
     pack_ = pack;
+    const int shift = std::countr_zero(pack);
+    const auto packs = [&](std::size_t entries) { return static_cast<std::uint16_t>((entries + pack - 1) >> shift); };
     at_.resize(positions.size());
     rows_.resize(blocks.size());
     found_.resize(blocks.ranges().size());
@@ -77,10 +80,11 @@ class PairList {
         const std::uint32_t left_out = once_size > 0 ? block_first : row;  // those further up list it; and itself
         found.size = 0;
         grid.find(positions[i], cutoff + skin, found, {left_out, sources.same_group ? row + 1 - left_out : 0});
+        check_size(found.size);
         name_rows(found, row, sources, excluded);
         At& at = at_[i];
-        at.first_once = static_cast<std::uint32_t>(end_once / pack);
-        at.first_other = static_cast<std::uint32_t>(end_others / pack);
+        at.first_once = static_cast<std::uint32_t>(end_once >> shift);
+        at.first_other = static_cast<std::uint32_t>(end_others >> shift);
         const std::size_t begin_once = end_once, begin_others = end_others;
         make_room(once, end_once + found.size + pack + Lanes::width);
         make_room(others, end_others + found.size + pack + Lanes::width);
@@ -102,11 +106,11 @@ class PairList {
           at.once[l] = packs(end_once - begin_once);
           at.others[l] = packs(end_others - begin_others);
         }
-        if (end_once % pack != 0) {
-          const std::uint16_t filler = far_apart.from(positions[i]);
-          for (; end_once % pack != 0; ++end_once) once[end_once] = filler;
-        }
-        for (; end_others % pack != 0; ++end_others) others[end_others] = sources.owned;
+        // Whole packs of fillers, of which the next list overwrites what is too many: no branch, which would be foretold wrongly.
+        std::fill_n(once.data() + end_once, pack, far_apart.from(positions[i]));
+        std::fill_n(others.data() + end_others, pack, sources.owned);
+        end_once = begin_once + pack * at.once.back();
+        end_others = begin_others + pack * at.others.back();
       }
       keep<std::uint16_t>({once.data(), end_once}, rows_[block].once);
       keep<std::uint32_t>({others.data(), end_others}, rows_[block].others);
@@ -197,13 +201,11 @@ class PairList {
     return result;
   }
 
-  /// Packs that hold some entries of one particle.
-  [[nodiscard]] std::uint16_t packs(std::size_t entries) const {
-    const std::size_t result = (entries + pack_ - 1) / pack_;
-    if (result > 0xffff)
+  /// Packs of one particle are counted in 16 bits.
+  void check_size(std::size_t found) const {
+    if (found > 0xffff * pack_)
       throw ParameterError("neighbours::PairList: a particle must have fewer than " + std::to_string(0xffff * pack_) +
-                           " neighbours, got " + std::to_string(entries));
-    return static_cast<std::uint16_t>(result);
+                           " neighbours, got " + std::to_string(found));
   }
 
   /// Names found particles by their rows, and takes out those that are excluded: their fraction becomes infinite.
