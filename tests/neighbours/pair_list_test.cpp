@@ -284,6 +284,36 @@ TEST_CASE("the lower levels are shorter: a list just built is read as far as an 
   }
 }
 
+TEST_CASE("a list is read as far as the share of the skin that has been used up asks for; all of it without a skin") {
+  const auto above = [](double share) { return std::nextafter(share, 2.0); };
+  CHECK(PairList::level_at(0.0) == 0);
+  for (std::size_t level = 0; level + 1 < PairList::levels; ++level) {
+    CHECK(PairList::level_at(PairList::share[level]) == level);
+    CHECK(PairList::level_at(above(PairList::share[level])) == level + 1);
+  }
+  CHECK(PairList::level_at(1.0) == PairList::levels - 1);
+  CHECK(PairList::level_at(std::nan("")) == PairList::levels - 1);
+}
+
+TEST_CASE("more neighbours than a list can count, and packs that are no power of two, are refused") {
+  const test::Cloud<1> one(1, Vector<1>(0.0));
+  const auto build = [&one](std::size_t sources, std::size_t pack_size) {
+    CellGrid<1> grid;
+    grid.build(test::Cloud<1>(sources, Vector<1>(0.0)), 1.0);
+    dmp::Blocks blocks;
+    blocks.set_bounds(std::vector<std::size_t>{0, 1});
+    PairList list;
+    const auto rows = static_cast<std::uint32_t>(sources);
+    list.build<1>(blocks, one, grid, 1.0, 0.0, {.same_group = false, .owned = rows, .first_ghost = rows + 1, .owner = {}}, {}, pack_size);
+    return list.of(0, 0).others.size();
+  };
+  CHECK(build(65535, 1) == 65535);
+  CHECK_THROWS_WITH_AS(build(65536, 1), "neighbours::PairList: a particle must not have more than 65535 neighbours, got 65536",
+                       dmp::ParameterError);
+  CHECK(build(65536, 2) == 65536);
+  CHECK_THROWS_WITH_AS(build(10, 3), "neighbours::PairList: pack must be a power of two, got 3", dmp::ParameterError);
+}
+
 TEST_CASE("two groups, each with lists of the other of its own reach, as with two supports") {
   const auto few = test::scattered<2>(120, 1.0, 1), many = test::clustered<2>(400, 1.0, 2);
   for (const double cutoff : {0.05, 0.3}) {

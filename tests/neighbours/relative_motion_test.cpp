@@ -11,7 +11,6 @@ using dmp::Vector;
 using dmp::geometry::Box;
 using dmp::neighbours::Bounds;
 using dmp::neighbours::RelativeMotion;
-using dmp::neighbours::Run;
 
 namespace {
 
@@ -44,16 +43,15 @@ struct Motion {
     blocks.set_bounds(bounds);
     std::vector<std::size_t> first_run;
     motion.follow(blocks, std::span<const Vector<Dim>>(points).subspan(first, last - first), first_run);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const auto runs = motion.runs(first_run[b], first_run[b + 1]);
-      for (std::size_t r = 0; r < runs.size(); ++r) {
-        runs[r].displacement = Bounds<Dim>{};
-        for (std::size_t i = runs[r].first; i < (r + 1 < runs.size() ? runs[r + 1].first : blocks.end(b)); ++i) {
-          runs[r].displacement.add(moved[first + i]);
-          cell[first + i] = runs[r].cell;
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      motion.for_each_run(blocks, first_run, b, [&](std::size_t number, const dmp::neighbours::Run& run, std::size_t end) {
+        Bounds<Dim> displacement;
+        for (std::size_t i = run.first; i < end; ++i) {
+          displacement.add(moved[first + i]);
+          cell[first + i] = run.cell;
         }
-      }
-    }
+        motion.set_displacement(number, displacement);
+      });
   }
   /// The largest relative displacement of two that were within `distance` of each other, of particle i or (-1) of all.
   [[nodiscard]] double largest(double distance, std::int64_t of = -1) const {

@@ -39,22 +39,24 @@ class PairList {
     [[nodiscard]] std::uint32_t row(std::uint32_t k) const noexcept { return k < owned ? k : k - owned + first_ghost; }
     [[nodiscard]] std::uint32_t original(std::uint32_t row) const noexcept { return row < owned ? row : owner[row - first_ghost]; }
   };
-  /// Pairs of level l cannot act before the share of level l - 1 of the skin has been used up. Most particles use up little until lists wear
-  /// out somewhere.
+  /// Pairs of level 0 can act at once, those of level l > 0 not before the share of level l - 1 of the skin has been used up. Most
+  /// particles use up little until lists wear out somewhere.
   static constexpr std::array<double, 4> share{0.125, 0.35, 0.65, 1.0};
   static constexpr std::size_t levels = share.size();
-  /// How far a list must be read when `used` of the skin has been used up.
-  [[nodiscard]] static constexpr std::size_t level_at(double used) noexcept {
+  static_assert(std::is_sorted(share.begin(), share.end()) && share.back() == 1.0);
+  /// How far a list must be read when this share of the skin has been used up; all of it if that is not a number, as without a skin.
+  [[nodiscard]] static constexpr std::size_t level_at(double share_used) noexcept {
     std::size_t level = 0;
-    while (level + 1 < levels && !(used <= share[level])) ++level;
+    while (level + 1 < levels && !(share_used <= share[level])) ++level;
     return level;
   }
 
   /// `grid` holds the owned sources, then the ghosts. Pairs within `cutoff` + `skin` [m] are listed, and
-  /// perhaps some that are farther apart by less than the margin of the grid. `pack` is a power of two.
+  /// perhaps some that are farther apart by less than the margin of the grid. Lists fill whole packs of so many, a power of two.
   template <int Dim>
   void build(const Blocks& blocks, std::span<const Vector<Dim>> positions, const CellGrid<Dim>& grid, double cutoff, double skin,
              const Sources& sources, const Exclusions& excluded, std::size_t pack) {
+    require(std::has_single_bit(pack), "neighbours::PairList: pack must be a power of two", static_cast<double>(pack));
     pack_ = pack;
     const int shift = std::countr_zero(pack);
     const auto packs = [&](std::size_t entries) { return static_cast<std::uint16_t>((entries + pack - 1) >> shift); };
@@ -121,7 +123,7 @@ class PairList {
     std::span<const std::uint16_t> once;    ///< of the same block, further down, counted from its first row: the law serves both
     std::span<const std::uint32_t> others;  ///< those that are listed at each end
   };
-  /// Of particle i, which lies in `block`, the neighbours that can act while no more than share[level] of the skin is used up.
+  /// Of particle i, which lies in `block`, the neighbours that can act while no more than share[level] of the skin has been used up.
   [[nodiscard, gnu::always_inline]] Neighbours of(std::size_t block, std::size_t i, std::size_t level = levels - 1) const noexcept {
     const At& at = at_[i];
     const RowsOfBlock& rows = rows_[block];
@@ -204,7 +206,7 @@ class PairList {
   /// Packs of one particle are counted in 16 bits.
   void check_size(std::size_t found) const {
     if (found > 0xffff * pack_)
-      throw ParameterError("neighbours::PairList: a particle must have fewer than " + std::to_string(0xffff * pack_) +
+      throw ParameterError("neighbours::PairList: a particle must not have more than " + std::to_string(0xffff * pack_) +
                            " neighbours, got " + std::to_string(found));
   }
 

@@ -34,10 +34,8 @@ struct Bounds {
 };
 
 /// Particles of one block that were in the same coarse cell when the lists were built, rows first .. first of the next run.
-template <int Dim>
 struct Run {
   std::uint32_t first, cell;
-  Bounds<Dim> displacement{Vector<Dim>::Zero(), Vector<Dim>::Zero()};  ///< of its particles, since then
 };
 
 /// How much of the skin of neighbour lists has been used up, place by place: by how much neighbours have moved relative to each other since
@@ -65,13 +63,14 @@ class RelativeMotion {
       stride_[d + 1] = stride_[d] * (cells + 2);
     }
     runs_.clear();
+    displacement_.clear();
     for (auto& x : lower_) x.resize(total());
     for (auto& x : upper_) x.resize(total());
     used_.assign(total(), 0.0);
   }
   /// Follows a group from where it is now. Sets first_run: the runs of block b are number first_run[b] .. first_run[b + 1] - 1.
   void follow(const Blocks& blocks, std::span<const Vector<Dim>> positions, std::vector<std::size_t>& first_run) {
-    const auto for_each_run = [&](std::size_t block, auto&& function) {
+    const auto find_runs = [&](std::size_t block, auto&& function) {
       std::uint32_t last = 0;
       for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i)
         if (const auto cell = index(positions[i]); i == blocks.begin(block) || cell != last)
@@ -80,7 +79,7 @@ class RelativeMotion {
     first_run.assign(blocks.size() + 1, 0);
     for_each_block(blocks, [&](std::size_t, std::size_t block) {
       std::size_t count = 0;
-      for_each_run(block, [&count](std::uint32_t, std::uint32_t) { ++count; });
+      find_runs(block, [&count](std::uint32_t, std::uint32_t) { ++count; });
       first_run[block + 1] = count;
     });
     first_run[0] = runs_.size();
@@ -88,12 +87,22 @@ class RelativeMotion {
     resize_with_margin(runs_, first_run.back());
     for_each_block(blocks, [&](std::size_t, std::size_t block) {
       std::size_t run = first_run[block];
-      for_each_run(block, [&](std::uint32_t i, std::uint32_t cell) { runs_[run++] = {i, cell}; });
+      find_runs(block, [&](std::uint32_t i, std::uint32_t cell) { runs_[run++] = {i, cell}; });
     });
+    resize_with_margin(displacement_, runs_.size());
+    const Bounds<Dim> none{Vector<Dim>::Zero(), Vector<Dim>::Zero()};
+    std::fill(displacement_.data() + first_run[0], displacement_.data() + runs_.size(), none);
     by_cell_.sort(runs_.size(), total(), [this](std::size_t run) { return runs_[run].cell; });
   }
-  /// Runs `begin` .. `end` - 1, for their displacements to be set.
-  [[nodiscard]] std::span<Run<Dim>> runs(std::size_t begin, std::size_t end) noexcept { return {runs_.data() + begin, end - begin}; }
+  /// Calls function(number, run, the first row beyond it) for the runs of block b of a group that is followed.
+  template <class Function>
+  void for_each_run(const Blocks& blocks, std::span<const std::size_t> first_run, std::size_t block, Function&& function) const {
+    const std::size_t end = first_run[block + 1];
+    for (std::size_t run = first_run[block]; run < end; ++run)
+      function(run, runs_[run], run + 1 < end ? runs_[run + 1].first : blocks.end(block));
+  }
+  /// How far [m] the particles of a run have gone since the lists were built; zero at first.
+  void set_displacement(std::size_t run, const Bounds<Dim>& bounds) noexcept { displacement_[run] = bounds; }
 
   struct Wear {
     double used = 0.0;      ///< of the skin [m], where it is most
@@ -128,7 +137,8 @@ class RelativeMotion {
   }
   [[nodiscard]] double used(std::uint32_t cell) const noexcept { return used_[cell]; }
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return runs_.capacity() * sizeof(Run<Dim>) + by_cell_.bytes() + (2 * Dim * lower_[0].capacity() + used_.capacity()) * sizeof(double);
+    return runs_.capacity() * sizeof(Run) + displacement_.capacity() * sizeof(Bounds<Dim>) + by_cell_.bytes() +
+           (2 * Dim * lower_[0].capacity() + used_.capacity()) * sizeof(double);
   }
 
  private:
@@ -170,7 +180,7 @@ class RelativeMotion {
       Bounds<Dim> moved;
       if (const int from = original(static_cast<int>(k), 0); from > 0 && !nobody) {
         const std::size_t cell = first + static_cast<std::size_t>(from);
-        for (std::size_t r = by_cell_.begin(cell); r < by_cell_.begin(cell + 1); ++r) moved.add(runs_[by_cell_.rows()[r]].displacement);
+        for (std::size_t r = by_cell_.begin(cell); r < by_cell_.begin(cell + 1); ++r) moved.add(displacement_[by_cell_.rows()[r]]);
         all.add(moved);
       }
       for (std::size_t d = 0; d < Dim; ++d) {
@@ -242,7 +252,8 @@ class RelativeMotion {
   std::array<bool, Dim> periodic_{};
   double reach_ = 0.0;                         // [m]
   std::array<std::size_t, Dim + 1> stride_{};  // of cells in memory, with one more around them all, and whole packs of them in a row
-  std::vector<Run<Dim>> runs_;                 // of all groups
+  std::vector<Run> runs_;                      // of all groups
+  std::vector<Bounds<Dim>> displacement_;      // of their particles
   CountingSort by_cell_;                       // runs in the order of their cells
   std::array<AlignedVector<double>, Dim> lower_, upper_;  // displacements in each cell
   AlignedVector<double> used_;

@@ -44,6 +44,10 @@ class Columns<Dim, Fields<Field...>> : detail::Column<Dim, Field>... {
     (resize_one(get<Field>(), count, ranges), ...);
   }
 
+  [[gnu::always_inline]] void prefetch(std::size_t row) const noexcept {
+    (__builtin_prefetch(get<Field>().data() + row), ...);
+  }
+
   /// Moves row order[k] to row k, for all columns; `order` is a permutation of 0 .. count - 1, `scratch` has room for count vectors.
   void permute(std::span<const std::uint32_t> order, const Ranges& ranges, double* scratch) {
     (permute_one(get<Field>(), order, ranges, scratch), ...);

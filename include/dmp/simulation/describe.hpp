@@ -16,7 +16,7 @@ template <class Scene>
     bytes += static_cast<double>(g.size() * (G::Columns::bytes_per_particle + sizeof(std::uint32_t)));
     if constexpr (G::Layout::has_records) bytes += static_cast<double>(g.records.bytes() + g.sums.bytes());
     if constexpr (G::Layout::has_pairs)
-      bytes += static_cast<double>(g.at_list_build.size() * sizeof(Vector<G::Dim>) + g.grid.bytes() +
+      bytes += static_cast<double>(g.at_list_build.size() * sizeof(Vector<G::Dim>) + g.level.size() + g.grid.bytes() +
                                    g.ghosts.size() * (sizeof(std::uint32_t) + sizeof(Vector<G::Dim>)));
   });
   scene.engine().for_each_item([&bytes](const auto& active) {

@@ -101,7 +101,8 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
     if constexpr (evolves<G>) {
       this->with_materials(g, [&](const auto&... law) {
         for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-          follow(g, block, [&, last_dt, dt, time](std::size_t i) {
+          this->follow(g, block, [&, last_dt, dt, time](std::size_t i) {
+            g.prefetch_for_step(i + 96);
             if constexpr (mobile<G>) move(g, i, last_dt, dt);
             if (last_dt > 0.0) end_state(g, i, last_dt);
             if (!(dt > 0.0)) return;
@@ -113,25 +114,6 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
         });
       });
       if (dt > 0.0) this->pack_ghosts(g);
-    }
-  }
-  /// Calls function(i) for the rows of a block, and keeps account of their displacements.
-  template <class G, class Function>
-  void follow(G& g, std::size_t block, const Function& function) {
-    const std::size_t first = g.blocks.begin(block), last = g.blocks.end(block);
-    if constexpr (G::Mobility::moves && LayoutOf<G>::has_pairs) {
-      const auto runs = this->runs_of(g, block);
-      for (std::size_t r = 0; r < runs.size(); ++r) {
-        const std::size_t end_of_run = r + 1 < runs.size() ? runs[r + 1].first : last;
-        neighbours::Bounds<Dim> bounds;
-        for (std::size_t i = runs[r].first; i < end_of_run; ++i) {
-          function(i);
-          bounds.add(g.positions()[i] - g.at_list_build[i]);
-        }
-        runs[r].displacement = bounds;
-      }
-    } else {
-      for (std::size_t i = first; i < last; ++i) function(i);
     }
   }
   /// Velocity and position of a particle over the end of the last step and the beginning of the next, in registers.
@@ -213,7 +195,7 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
     for_each_group([&](auto& g) {
       using G = std::remove_cvref_t<decltype(g)>;
       if constexpr (LayoutOf<G>::has_substeps && LayoutOf<G>::has_pairs)
-        for_each_block(g.blocks, [&](std::size_t, std::size_t block) { follow(g, block, [](std::size_t) {}); });
+        for_each_block(g.blocks, [&](std::size_t, std::size_t block) { this->follow(g, block, [](std::size_t) {}); });
     });
   }
   template <class Function>

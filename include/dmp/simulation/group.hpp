@@ -134,11 +134,18 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
     }
   };
   [[nodiscard]] Reader reader() const noexcept { return {records.reader(), constants}; }
-  /// Of a row that a sweep comes to soon: its neighbours are scattered, so that nothing else foretells it.
-  [[gnu::always_inline]] void prefetch(std::size_t row) noexcept {
+  /// Asks for what a sweep will want of a row: its neighbours are scattered, so that nothing else foretells it.
+  [[gnu::always_inline]] void prefetch_for_sweep(std::size_t row) noexcept {
     if (row >= size()) return;
     __builtin_prefetch(records.data() + row * Records::stride, 0, 2);
-    if constexpr (Layout::sums_in_memory && Precision::pairs_once) __builtin_prefetch(sums.data() + row * Sums::stride, 1, 2);
+    if constexpr (Layout::sums_in_memory && Precision::pairs_once) __builtin_prefetch(sums.data() + row * Sums::stride, 0, 2);
+  }
+  /// Asks for what a step will want of a row, in more places at once than processors foretell, anew in every page of memory.
+  [[gnu::always_inline]] void prefetch_for_step(std::size_t row) noexcept {
+    if (row >= size()) return;
+    columns.prefetch(row);
+    if constexpr (Layout::has_records) __builtin_prefetch(records.data() + row * Records::stride);
+    if constexpr (Mobility::moves && Layout::has_pairs) __builtin_prefetch(&this->at_list_build[row]);
   }
 
   std::string name;

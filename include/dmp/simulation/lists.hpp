@@ -86,34 +86,40 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
       const auto wear = relative_motion_.find_wear();
       if (!(wear.used <= skin_)) return true;
       if (wear.farthest > longest_cutoff_) return true;  // time to go back into the periodic box
-      for_each_group_in_pairs([this](auto& g) {
-        for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-          const auto runs = runs_of(g, block);
-          for (std::size_t r = 0; r < runs.size(); ++r) {
-            const std::size_t end = r + 1 < runs.size() ? runs[r + 1].first : g.blocks.end(block);
-            const std::size_t level = neighbours::PairList::level_at(relative_motion_.used(runs[r].cell) / skin_);
-            std::fill(&g.level[runs[r].first], g.level.data() + end, static_cast<std::uint8_t>(level));
-          }
-        });
+      for_each_group([this](auto& g) {
+        if constexpr (has_lists<decltype(g)>)
+          for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
+            relative_motion_.for_each_run(g.blocks, g.first_run, block, [&](std::size_t, const neighbours::Run& run, std::size_t end) {
+              const std::size_t level = neighbours::PairList::level_at(relative_motion_.used(run.cell) / skin_);
+              std::fill(g.level.data() + run.first, g.level.data() + end, static_cast<std::uint8_t>(level));
+            });
+          });
       });
     }
     return false;
   }
 
-  /// Of the particles of a block, for their displacements since the lists were built.
-  template <class G>
-  [[nodiscard]] std::span<neighbours::Run<Dim>> runs_of(const G& g, std::size_t block) noexcept {
-    return relative_motion_.runs(g.first_run[block], g.first_run[block + 1]);
+  /// Calls function(i) for the rows of a block, and keeps account of how far they have gone since the lists were built.
+  template <class G, class Function>
+  void follow(const G& g, std::size_t block, const Function& function) {
+    if constexpr (G::Mobility::moves && LayoutOf<G>::has_pairs) {
+      relative_motion_.for_each_run(g.blocks, g.first_run, block, [&](std::size_t number, const neighbours::Run& run, std::size_t end) {
+        neighbours::Bounds<Dim> bounds;
+        for (std::size_t i = run.first; i < end; ++i) {
+          function(i);
+          bounds.add(g.positions()[i] - g.at_list_build[i]);
+        }
+        relative_motion_.set_displacement(number, bounds);
+      });
+    } else {
+      for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) function(i);
+    }
   }
 
  private:
-  template <class Function>
-  void for_each_group_in_pairs(Function&& function) {
-    for_each_group([&](auto& g) {
-      using G = std::remove_cvref_t<decltype(g)>;
-      if constexpr (LayoutOf<G>::has_pairs) function(g);
-    });
-  }
+  /// Whether the particles of a group list their neighbours; those of others are listed at most.
+  template <class G>
+  static constexpr bool has_lists = LayoutOf<G>::has_pairs && evolves<G>;
 
   template <class G>
   void settle(G& g, bool sort) {  // positions into the box, particles into spatial order
@@ -208,7 +214,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
       if constexpr (LayoutOf<G>::has_pairs) {
         if constexpr (G::Mobility::moves) g.at_list_build = g.positions();
         relative_motion_.follow(g.blocks, g.positions(), g.first_run);
-        g.level.assign(g.size(), 0);
+        if constexpr (has_lists<G>) g.level.assign(g.size(), 0);
       }
     });
   }
