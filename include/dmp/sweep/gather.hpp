@@ -36,8 +36,9 @@ template <bool Velocity, int Dim, class Source, class I, class J>
   pair.distance_squared = dot(pair.separation, pair.separation);
   pair.distance = sqrt(pair.distance_squared);
   if constexpr (Velocity) {
-    pair.relative_velocity = -(j.velocity - i.velocity);
-    pair.approach = dot(pair.separation, pair.relative_velocity);
+    const auto of_j = j.velocity - i.velocity;
+    pair.relative_velocity = -of_j;
+    pair.approach = -dot(pair.separation, of_j);  // the sign goes into the sum
   }
   return pair;
 }
