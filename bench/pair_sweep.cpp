@@ -68,10 +68,10 @@ struct Sample {
     }
     rates.resize(positions.size());
   }
-  /// Calls sweep(i, lists of i, first row of its block, adder of the sums counted from there) for all particles. `sweep` by value: what it
-  /// holds cannot be what a loop writes.
+  /// Calls sweep(i, lists of i, first row of its block, adder of the sums counted from there) for all particles. Inlined for either sweep,
+  /// so that both know their constants.
   template <class Sweep>
-  void for_each(const Sweep sweep) {
+  [[gnu::always_inline]] void for_each(const Sweep& sweep) {
     for (std::size_t block = 0; block < blocks.size(); ++block)
       for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i)
         sweep(i, pairs.of(block, i), blocks.begin(block), sums.adder().from(blocks.begin(block)));
@@ -123,7 +123,7 @@ void pair_sweep_composed(benchmark::State& state) {
   const Law law{.kernel = {.support_radius = support_radius}, .viscosity = {.alpha = alpha, .sound_speed = sound_speed}};
   const Source<Precision> source{s.records.reader()};
   for (auto _ : state)
-    s.for_each([&, law](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] std::size_t first,
+    s.for_each([&](std::size_t i, const neighbours::PairList::Neighbours& lists, [[maybe_unused]] std::size_t first,
                    [[maybe_unused]] const auto& add) __attribute__((always_inline)) {
       Seen self;
       copy_fields(Record{}, self, s.records.template spread<Lanes>(i));
