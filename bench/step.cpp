@@ -68,7 +68,7 @@ void parts_of_step(benchmark::State& state) {
   bool worn = engine.begin_step(time_step, time);
   const auto step = [&] {
     const std::clock_t start = std::clock();
-    if (worn) engine.build_lists(false);
+    if (worn) engine.build_lists();
     const std::clock_t listed = std::clock();
     engine.prepare_forces(time_step, 0, worn);
     engine.forces(time_step, time);

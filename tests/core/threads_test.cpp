@@ -83,6 +83,8 @@ TEST_CASE("blocks depend on the rows alone, not on the threads: equal, of 4096 r
   }
   CHECK(Blocks(8191).size() == 1);
   CHECK(Blocks(8192).size() == 2);
+  CHECK(Blocks(27 * 27 * 27).size() == 4);
+  CHECK(Blocks(46 * 46 * 46).size() == 8);  // layers of a cube, 5.75 to a block
   CHECK(Blocks(1000000).size() == 16);
   CHECK(Blocks(16 * Blocks::most_rows).size() == 16);
   CHECK(Blocks(16 * Blocks::most_rows + 1).size() == 17);

@@ -105,6 +105,37 @@ TEST_CASE_TEMPLATE("within a block, those near in memory are near in space", Dim
   CHECK(apart / 20000.0 < 2.0 * cell);
 }
 
+TEST_CASE_TEMPLATE("particles of a given cell come one after the other, in blocks of a particle's own surroundings", Dimension,
+                   std::integral_constant<int, 1>, std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+  constexpr int dim = Dimension::value;
+  constexpr std::size_t count = 60000;
+  const auto points = test::scattered<dim>(count, 1.0, 7);
+  auto with_others = points;  // far away: the cells reach there, the blocks must not
+  with_others.push_back(dmp::Vector<dim>::Constant(-1.3));
+  with_others.push_back(dmp::Vector<dim>::Constant(2.1));
+  const double cell = std::pow(10.0 / count, 1.0 / dim);
+  const dmp::neighbours::Cells<dim> cells(with_others.size(), dmp::neighbours::Positions<dim>{with_others}, cell);
+  SpatialOrder<dim> order;
+  for (const int parts : {1, 2, 3}) {
+    order.build(points, cells, 10.0, parts);
+    CHECK(is_permutation(order, count));
+    CHECK(bounds_are_right(order, count));
+    Rows cell_of;
+    for (const std::uint32_t row : order.rows()) cell_of.push_back(static_cast<std::uint32_t>(cells.index(points[row])));
+    cell_of.erase(std::unique(cell_of.begin(), cell_of.end()), cell_of.end());
+    const std::size_t runs = cell_of.size();
+    std::sort(cell_of.begin(), cell_of.end());
+    CHECK(std::adjacent_find(cell_of.begin(), cell_of.end()) == cell_of.end());
+    CHECK(runs > count / 20);
+    for (const auto& box : boxes_of(order, points)) {
+      const dmp::Vector<dim> extent = box.upper - box.lower;
+      CHECK(extent.maxCoeff() <= 2.0 * extent.minCoeff());
+    }
+    CHECK(order.bounds().size() - 1 >= 7);
+    CHECK(order.bounds().size() - 1 <= 29);
+  }
+}
+
 TEST_CASE("the order does not depend on the number of threads, and rows of one cell keep theirs") {
   const auto points = test::clustered<2>(30000, 1.0, 5);
   Rows first;

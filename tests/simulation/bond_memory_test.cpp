@@ -227,7 +227,7 @@ TEST_CASE("bonds that are listed at both ends remember the same, bit for bit: ac
   auto scene = lattice();
   CHECK(scene.group<Net>().blocks.size() == 2);
   scene.run({.until = 0.5, .time_step = 0.005});
-  scene.engine().build_lists(true);
+  scene.engine().build_lists();
   scene.run({.until = 1.0, .time_step = 0.005});
   std::size_t twice = 0, different = 0;
   double largest = 0.0;
@@ -297,7 +297,7 @@ TEST_CASE("memories step once per step of the scene: evaluating the forces betwe
   auto once = lattice(), often = lattice();
   once.run({.until = 0.1, .time_step = 0.005});
   often.run({.until = 0.1, .time_step = 0.005});
-  once.engine().build_lists(true);  // as evaluate does: positions go back into the box
+  once.engine().build_lists();  // as evaluate does: positions go back into the box
   often.engine().evaluate(often.time(), often.step());
   const auto after_first = state(often);
   often.engine().evaluate(often.time(), often.step());

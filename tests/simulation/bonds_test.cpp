@@ -407,7 +407,7 @@ TEST_CASE("a bond across periodic faces acts like one inside, and goes on so whi
       auto moved = net(across, list, law, box);
       for (std::size_t k = 0; k < 3; ++k) moved.group<Net>().get<field::Velocity>()[k] = velocity(inside[k]) + drift;
       moved.run({.until = 1.0, .time_step = 1e-3});
-      moved.engine().build_lists(true);  // back into the box, as when lists are rebuilt or a checkpoint is written
+      moved.engine().build_lists();  // back into the box, as when lists are rebuilt or a checkpoint is written
       moved.run({.until = 2.0, .time_step = 1e-3});
       const auto &x = moved.group<Net>().positions(), &y = reference.group<Net>().positions();
       for (std::size_t k = 0; k < 3; ++k) {
@@ -416,6 +416,45 @@ TEST_CASE("a bond across periodic faces acts like one inside, and goes on so whi
         CHECK(apart.norm() <= 1e-12);
       }
     }
+}
+
+namespace {
+/// When a scene says that a bond has become too long [s]; -1 if it does not before 2 s. The right bead starts 0.1 m beside the left one in
+/// a box that is periodic along x, 1 m.
+template <class Hold, bool FromTheRight>
+[[nodiscard]] double too_long_at(const auto& law, const Vector<2>& velocity) {
+  const auto bead = [](double x) { return Points<2>{.positions = {{x, 0.5}}, .spacing = 0.0, .volume = 1.0}; };
+  const auto bond = [&] {
+    if constexpr (FromTheRight) return bonds<Right, Left>(law, {{0, 0}});
+    else return bonds<Left, Right>(law, {{0, 0}});
+  };
+  auto pair = scene<Leapfrog>(Box<2>{.lower = {0.0, -10.0}, .upper = {1.0, 10.0}, .periodic = {true, false}},
+                              group<Left>("left", Hold{}, bead(0.9), 1.0), group<Right>("right", Mobile{}, bead(0.0), 1.0), bond());
+  pair.template group<Right>().template set<field::Velocity>([&](const auto&) { return velocity; });
+  try {
+    pair.run({.until = 2.0, .time_step = 1e-3, .check_every = 1});
+  } catch (const SimulationError& error) {
+    CHECK(std::string(error.what()).find("a bond has become longer than 0.45 of the periodic box") != std::string::npos);
+    return error.where.time;
+  }
+  return -1.0;
+}
+}  // namespace
+
+TEST_CASE_TEMPLATE("a bond that outgrows a periodic box is found, whichever end lists it, unless it has broken", Hold, Mobile, Frozen<2>) {
+  const bond::Harmonic weak{.stiffness = 1e-12};
+  const bond::Breaking breaks{weak, bond::LargestStrain{.strain = 1.0}};
+  for (const double toward : {1.0, -1.0}) {  // the latter through the other bead
+    CAPTURE(toward);
+    const double expected = toward > 0.0 ? 0.35 : 0.55;
+    for (const double found : {too_long_at<Hold, false>(weak, {toward, 0.0}), too_long_at<Hold, true>(weak, {toward, 0.0})}) {
+      CHECK(found >= expected - 1e-12);
+      CHECK(found <= expected + 2e-3);
+    }
+    CHECK(too_long_at<Hold, false>(weak, {0.0, toward}) == -1.0);
+    CHECK(too_long_at<Hold, false>(breaks, {toward, 0.0}) == -1.0);
+    CHECK(too_long_at<Hold, true>(breaks, {toward, 0.0}) == -1.0);
+  }
 }
 
 namespace {

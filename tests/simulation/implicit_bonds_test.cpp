@@ -211,7 +211,7 @@ TEST_CASE("implicit bonds across the faces of a periodic box do what they do ins
   auto inside = tangle(box, 5.0, implicitly), across = tangle(box, 5.0, implicitly, Vector<3>(3.9, -4.0, 4.1));
   inside.run({.until = 1.0, .time_step = 0.01});
   across.run({.until = 0.5, .time_step = 0.01});
-  across.engine().build_lists(true);
+  across.engine().build_lists();
   across.run({.until = 1.0, .time_step = 0.01});
   for (std::size_t i = 0; i < 9; ++i) {
     const Vector<3> difference = across.group<Net>().positions()[i] - inside.group<Net>().positions()[i] - Vector<3>(3.9, -4.0, 4.1);

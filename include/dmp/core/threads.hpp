@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <exception>
 #include <span>
@@ -122,10 +124,13 @@ class Blocks {
   [[nodiscard]] std::size_t far_row(std::size_t block) const noexcept { return bounds_.back() + far_rows * block; }
 
   Blocks() = default;
-  /// Equal blocks, for particles in an order that is not ours: at most 16, more only where 16 would exceed `most_rows`, since those
-  /// that act on each other lie apart by whole layers of the body.
+  /// Equal blocks, for particles in an order that is not ours. Those that act on each other lie apart by whole layers of the body: blocks
+  /// are at least five and a half layers of a cube thick, so that few bonds are listed at both ends, and at most 16 unless those would
+  /// exceed `most_rows`.
   explicit Blocks(std::size_t count) {
-    const std::size_t blocks = std::max(std::clamp<std::size_t>(count / 4096, 1, 16), (count + most_rows - 1) / most_rows);
+    const auto thick = static_cast<std::size_t>(std::cbrt(static_cast<double>(count)) / 5.5);
+    const std::size_t wanted = std::clamp<std::size_t>(std::min(count / 4096, std::bit_floor(thick)), 1, 16);
+    const std::size_t blocks = std::max(wanted, (count + most_rows - 1) / most_rows);
     bounds_.resize(blocks + 1);
     for (std::size_t b = 0; b <= blocks; ++b) bounds_[b] = count * b / blocks;
     divide_evenly();

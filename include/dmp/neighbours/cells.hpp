@@ -25,6 +25,38 @@ struct Positions {
   }
 };
 
+/// The smallest box that holds some vectors; empty until one is added.
+template <int Dim>
+struct Bounds {
+  Vector<Dim> lower = Vector<Dim>::Constant(std::numeric_limits<double>::max()), upper = -lower;
+
+  void add(const Vector<Dim>& x) noexcept {
+    lower = lower.cwiseMin(x);
+    upper = upper.cwiseMax(x);
+  }
+  void add(const Bounds& other) noexcept {
+    lower = lower.cwiseMin(other.lower);
+    upper = upper.cwiseMax(other.upper);
+  }
+  [[nodiscard]] bool empty() const noexcept { return !(lower[0] <= upper[0]); }
+};
+
+/// That of position(0 .. size - 1).
+template <int Dim, class Position>
+[[nodiscard]] Bounds<Dim> bounds_of(std::size_t size, const Position& position) {
+  return merge_ranges(
+      Ranges(size), Bounds<Dim>{},
+      [&](std::size_t first, std::size_t last) {
+        Bounds<Dim> part;
+        for (std::size_t k = first; k < last; ++k) part.add(position(k));
+        return part;
+      },
+      [](Bounds<Dim> a, const Bounds<Dim>& b) {
+        a.add(b);
+        return a;
+      });
+}
+
 /// Equal cells over the bounding box of some positions.
 template <int Dim>
 struct Cells {
@@ -43,24 +75,7 @@ struct Cells {
   /// The same with a number of cells that the caller bounds.
   template <class Position>
   Cells(std::size_t size, const Position& position, double least_width, double most_cells) {
-    struct Bounds {
-      Vector<Dim> lower = Vector<Dim>::Constant(std::numeric_limits<double>::max()), upper = -lower;
-    };
-    const Bounds all = merge_ranges(
-        Ranges(size), Bounds{},
-        [&](std::size_t first, std::size_t last) {
-          Bounds part;
-          for (std::size_t k = first; k < last; ++k) {
-            part.lower = part.lower.cwiseMin(position(k));
-            part.upper = part.upper.cwiseMax(position(k));
-          }
-          return part;
-        },
-        [](Bounds a, const Bounds& b) {
-          a.lower = a.lower.cwiseMin(b.lower);
-          a.upper = a.upper.cwiseMax(b.upper);
-          return a;
-        });
+    const Bounds<Dim> all = bounds_of<Dim>(size, position);
     if (size == 0) return;
     lower = all.lower;
     Vector<Dim> extent;

@@ -17,22 +17,6 @@
 
 namespace dmp::neighbours {
 
-/// The smallest box that holds some vectors; empty until one is added.
-template <int Dim>
-struct Bounds {
-  Vector<Dim> lower = Vector<Dim>::Constant(std::numeric_limits<double>::max()), upper = -lower;
-
-  void add(const Vector<Dim>& x) noexcept {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
-  void add(const Bounds& other) noexcept {
-    lower = lower.cwiseMin(other.lower);
-    upper = upper.cwiseMax(other.upper);
-  }
-  [[nodiscard]] bool empty() const noexcept { return !(lower[0] <= upper[0]); }
-};
-
 /// Particles of one block that were in the same coarse cell when the lists were built, rows first .. first of the next run.
 struct Run {
   std::uint32_t first, cell;
@@ -52,9 +36,8 @@ class RelativeMotion {
   void build(const Bounds<Dim>& bounds, const geometry::Box<Dim>& box, double cutoff, double skin, std::size_t particles) {
     reach_ = cutoff + skin;
     // Half a skin wider: in shear, those on the two sides of a cell then use up no more than those in cells that touch.
-    cells_ = Cells<Dim>(
-        2, [&](std::size_t k) -> const Vector<Dim>& { return k == 0 ? bounds.lower : bounds.upper; }, reach_ + 0.5 * skin,
-        std::min(4.0 * static_cast<double>(particles) + 64.0, 1e6));
+    const std::array<Vector<Dim>, 2> corners{bounds.lower, bounds.upper};
+    cells_ = Cells<Dim>(2, Positions<Dim>{corners}, reach_ + 0.5 * skin, std::min(4.0 * static_cast<double>(particles) + 64.0, 1e6));
     periodic_ = box.periodic;
     stride_[0] = 1;
     for (std::size_t d = 0; d < Dim; ++d) {
@@ -64,8 +47,8 @@ class RelativeMotion {
     }
     runs_.clear();
     displacement_.clear();
-    for (auto& x : lower_) x.resize(total());
-    for (auto& x : upper_) x.resize(total());
+    for (auto& x : lower_) x.assign(total(), Bounds<Dim>{}.lower[0]);
+    for (auto& x : upper_) x.assign(total(), Bounds<Dim>{}.upper[0]);
     used_.assign(total(), 0.0);
   }
   /// Follows a group from where it is now. Sets first_run: the runs of block b are number first_run[b] .. first_run[b + 1] - 1.
@@ -93,7 +76,9 @@ class RelativeMotion {
     const Bounds<Dim> none{Vector<Dim>::Zero(), Vector<Dim>::Zero()};
     std::fill(displacement_.data() + first_run[0], displacement_.data() + runs_.size(), none);
     by_cell_.sort(runs_.size(), total(), [this](std::size_t run) { return runs_[run].cell; });
+    find_occupied();
   }
+  [[nodiscard]] const Cells<Dim>& cells() const noexcept { return cells_; }
   /// Calls function(number, run, the first row beyond it) for the runs of block b of a group that is followed.
   template <class Function>
   void for_each_run(const Blocks& blocks, std::span<const std::size_t> first_run, std::size_t block, Function&& function) const {
@@ -111,12 +96,11 @@ class RelativeMotion {
   /// From the displacements of all runs; then used(cell) holds too: the largest relative displacement [m] of particles in that cell from
   /// any of their neighbours. What is not a number counts for nothing: a check of the state finds it.
   [[nodiscard]] Wear find_wear() {
-    const Ranges rows(total() / stride_[1], 32);  // of cells along the first direction
     const Bounds<Dim> all = merge_ranges(
-        rows, Bounds<Dim>{},
+        Ranges(occupied_.size(), 256), Bounds<Dim>{},
         [this](std::size_t first, std::size_t last) {
           Bounds<Dim> result;
-          for (std::size_t row = first; row < last; ++row) result.add(find_displacements(row));
+          for (std::size_t k = first; k < last; ++k) result.add(find_displacements(occupied_[k]));
           return result;
         },
         [](Bounds<Dim> a, const Bounds<Dim>& b) {
@@ -125,11 +109,13 @@ class RelativeMotion {
         });
     if (all.empty()) return {};
     const double around = merge_ranges(
-        rows, 0.0,
+        Ranges(near_.size(), 256), 0.0,
         [this](std::size_t first, std::size_t last) {
-          double result = 0.0;
-          for (std::size_t row = first; row < last; ++row) result = std::max(result, look_around(row));
-          return result;
+          Lanes result(0.0);
+          for (std::size_t k = first; k < last; ++k) result = max(result, look_around(near_[k]));
+          double most = 0.0;
+          for (int lane = 0; lane < Lanes::width; ++lane) most = std::max(most, result[lane]);
+          return most;
         },
         [](double a, double b) { return std::max(a, b); });
     const double anywhere = used_by<double>(2, [&all](int d) { return all.upper[d] - all.lower[d]; });
@@ -138,7 +124,8 @@ class RelativeMotion {
   [[nodiscard]] double used(std::uint32_t cell) const noexcept { return used_[cell]; }
   [[nodiscard]] std::size_t bytes() const noexcept {
     return runs_.capacity() * sizeof(Run) + displacement_.capacity() * sizeof(Bounds<Dim>) + by_cell_.bytes() +
-           (2 * Dim * lower_[0].capacity() + used_.capacity()) * sizeof(double);
+           (2 * Dim * lower_[0].capacity() + used_.capacity()) * sizeof(double) + occupied_.capacity() * sizeof(Occupied) +
+           touches_.capacity() + near_.capacity() * sizeof(std::uint32_t);
   }
 
  private:
@@ -151,12 +138,11 @@ class RelativeMotion {
     for (int d = 0; d < Dim; ++d) cell += (static_cast<std::size_t>(cells_.along(x[d], d)) + 1) * stride_[static_cast<std::size_t>(d)];
     return static_cast<std::uint32_t>(cell);
   }
-  /// Place of the first cell of a row.
-  [[nodiscard]] Place place_of(std::size_t row) const noexcept {
-    Place place{};
-    std::size_t cell = row * stride_[1];
-    for (std::size_t d = Dim; d-- > 1; cell %= stride_[d]) place[d] = static_cast<int>(cell / stride_[d]);
-    return place;
+  /// From a cell to one beside it, in memory.
+  [[nodiscard]] std::size_t away(const Place& side) const noexcept {
+    std::size_t result = 0;
+    for (std::size_t d = 0; d < Dim; ++d) result += static_cast<std::size_t>(side[d]) * stride_[d];
+    return result;
   }
   [[nodiscard]] bool inside(int place, std::size_t d) const noexcept { return place >= 1 && place <= cells_.count[d]; }
   /// The place of which this one is an image behind a periodic face; itself in between, 0 where nobody is.
@@ -165,65 +151,74 @@ class RelativeMotion {
     if (inside(place, d)) return place;
     return !periodic_[d] || place > count + 1 ? 0 : place == 0 ? count : 1;
   }
-  /// Displacements in the cells of a row, or of the row of which it is an image; returns those of all.
-  Bounds<Dim> find_displacements(std::size_t row) noexcept {
-    Bounds<Dim> all;
-    Place place = place_of(row);
-    std::size_t first = 0;
-    bool nobody = false;
-    for (std::size_t d = 1; d < Dim; ++d) {
-      const int from = original(place[d], d);
-      nobody = nobody || from == 0;
-      first += static_cast<std::size_t>(from) * stride_[d];
-    }
-    for (std::size_t k = 0; k < stride_[1]; ++k) {
-      Bounds<Dim> moved;
-      if (const int from = original(static_cast<int>(k), 0); from > 0 && !nobody) {
-        const std::size_t cell = first + static_cast<std::size_t>(from);
-        for (std::size_t r = by_cell_.begin(cell); r < by_cell_.begin(cell + 1); ++r) moved.add(displacement_[by_cell_.rows()[r]]);
-        all.add(moved);
+  /// Lists the cells where somebody is, with their images, and the packs of cells that touch them: much of the box of a splash is air.
+  void find_occupied() {
+    occupied_.clear();
+    near_.clear();
+    touches_.assign(total(), 0);
+    for (std::size_t row = 0; row < total(); row += stride_[1]) {  // of cells along the first direction
+      Place place{};
+      std::size_t first = 0, rest = row;
+      bool nobody = false;
+      for (std::size_t d = Dim; d-- > 1; rest %= stride_[d]) {
+        place[d] = static_cast<int>(rest / stride_[d]);
+        nobody = nobody || original(place[d], d) == 0;
+        first += static_cast<std::size_t>(original(place[d], d)) * stride_[d];
       }
-      for (std::size_t d = 0; d < Dim; ++d) {
-        lower_[d][row * stride_[1] + k] = moved.lower[static_cast<int>(d)];
-        upper_[d][row * stride_[1] + k] = moved.upper[static_cast<int>(d)];
+      for (std::size_t k = 0; k < stride_[1] && !nobody; ++k) {
+        const auto from = static_cast<std::size_t>(original(static_cast<int>(k), 0));
+        if (from == 0 || by_cell_.begin(first + from) == by_cell_.begin(first + from + 1)) continue;
+        occupied_.push_back({static_cast<std::uint32_t>(row + k), static_cast<std::uint32_t>(first + from)});
+        for (const auto& side : sides)
+          if (const std::size_t other = row + k + away(side); other < total()) touches_[other] = 1;  // beyond the ends: not inside
       }
     }
-    return all;
+    for (std::size_t row = 0; row < total(); row += stride_[1]) {
+      bool all_inside = true;
+      std::size_t rest = row;
+      for (std::size_t d = Dim; d-- > 1; rest %= stride_[d]) all_inside = all_inside && inside(static_cast<int>(rest / stride_[d]), d);
+      for (std::size_t k = 1; inside(static_cast<int>(k), 0) && all_inside; k += Lanes::width) {
+        const auto begin = touches_.begin() + static_cast<std::ptrdiff_t>(row + k);
+        if (std::find(begin, begin + Lanes::width, 1) != begin + Lanes::width) near_.push_back(static_cast<std::uint32_t>(row + k));
+      }
+    }
   }
-  /// What is used up in the cells of a row, towards those that touch them and between those on their two sides; returns the most.
-  double look_around(std::size_t row) noexcept {
-    const Place place = place_of(row);
-    for (std::size_t d = 1; d < Dim; ++d)
-      if (!inside(place[d], d)) return 0.0;
-    Lanes result(0.0);
-    for (int k = 1; k <= cells_.count[0]; k += Lanes::width) {
-      const std::size_t cell = row * stride_[1] + static_cast<std::size_t>(k);
-      Lanes relative_squared(0.0);
-      std::array<Lanes, Dim> before, behind;  // the largest displacement of those before the cell along each axis, the least behind it
-      before.fill(Bounds<Dim>{}.upper[0]);
-      behind.fill(Bounds<Dim>{}.lower[0]);
-      for (const auto& side : sides) {
-        std::ptrdiff_t away = 0;
-        for (std::size_t d = 0; d < Dim; ++d) away += side[d] * static_cast<std::ptrdiff_t>(stride_[d]);
-        const std::size_t other = cell + static_cast<std::size_t>(away);
-        Lanes squared(0.0);
-        for (std::size_t d = 0; d < Dim; ++d) {
-          const Lanes lower = Lanes::load(&lower_[d][other]), upper = Lanes::load(&upper_[d][other]);
-          const Lanes relative = max(max(upper - Lanes::load(&lower_[d][cell]), Lanes::load(&upper_[d][cell]) - lower), 0.0);
-          squared += relative * relative;
-          if (side[d] < 0) before[d] = max(before[d], upper);
-          if (side[d] > 0) behind[d] = min(behind[d], lower);
-        }
-        relative_squared = max(relative_squared, squared);
-      }
-      const Lanes relative = sqrt(relative_squared);
-      relative.store(&used_[cell]);
-      const auto approach = [&](int d) { return before[static_cast<std::size_t>(d)] - behind[static_cast<std::size_t>(d)]; };
-      result = max(result, max(relative, used_by<Lanes>(1, approach)));
+  struct Occupied {
+    std::uint32_t cell, original;  // of which it is an image; itself
+  };
+  /// Displacements in a cell.
+  Bounds<Dim> find_displacements(const Occupied& one) noexcept {
+    Bounds<Dim> moved;
+    for (std::size_t r = by_cell_.begin(one.original); r < by_cell_.begin(one.original + 1); ++r)
+      moved.add(displacement_[by_cell_.rows()[r]]);
+    for (std::size_t d = 0; d < Dim; ++d) {
+      lower_[d][one.cell] = moved.lower[static_cast<int>(d)];
+      upper_[d][one.cell] = moved.upper[static_cast<int>(d)];
     }
-    double most = 0.0;
-    for (int lane = 0; lane < Lanes::width; ++lane) most = std::max(most, result[lane]);
-    return most;
+    return moved;
+  }
+  /// What is used up in a pack of cells, towards those that touch them and between those on their two sides.
+  Lanes look_around(std::size_t cell) noexcept {
+    Lanes relative_squared(0.0);
+    std::array<Lanes, Dim> before, behind;  // the largest displacement of those before the cell along each axis, the least behind it
+    before.fill(Bounds<Dim>{}.upper[0]);
+    behind.fill(Bounds<Dim>{}.lower[0]);
+    for (const auto& side : sides) {
+      const std::size_t other = cell + away(side);
+      Lanes squared(0.0);
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const Lanes lower = Lanes::load(&lower_[d][other]), upper = Lanes::load(&upper_[d][other]);
+        const Lanes relative = max(max(upper - Lanes::load(&lower_[d][cell]), Lanes::load(&upper_[d][cell]) - lower), 0.0);
+        squared += relative * relative;
+        if (side[d] < 0) before[d] = max(before[d], upper);
+        if (side[d] > 0) behind[d] = min(behind[d], lower);
+      }
+      relative_squared = max(relative_squared, squared);
+    }
+    const Lanes relative = sqrt(relative_squared);
+    relative.store(&used_[cell]);
+    const auto approach = [&](int d) { return before[static_cast<std::size_t>(d)] - behind[static_cast<std::size_t>(d)]; };
+    return max(relative, used_by<Lanes>(1, approach));
   }
   /// A cell and those that touch it: -1, 0 or 1 along each direction.
   static constexpr auto sides = [] {
@@ -257,6 +252,9 @@ class RelativeMotion {
   CountingSort by_cell_;                       // runs in the order of their cells
   std::array<AlignedVector<double>, Dim> lower_, upper_;  // displacements in each cell
   AlignedVector<double> used_;
+  std::vector<Occupied> occupied_;     // cells where somebody is
+  std::vector<std::uint8_t> touches_;  // of each cell: 1 if such a one touches it, or is it
+  std::vector<std::uint32_t> near_;    // the first of each pack of cells that are touched
 };
 
 }  // namespace dmp::neighbours

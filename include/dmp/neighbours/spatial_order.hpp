@@ -17,41 +17,66 @@ namespace dmp::neighbours {
 template <int Dim>
 class SpatialOrder {
  public:
-  /// `particles_per_cell`: where there are any, 0 unknown.
+  /// Cells of at least `cell_width` [m] over the positions; `particles_per_cell`: where there are any, 0 unknown.
   void build(std::span<const Vector<Dim>> positions, double cell_width, double particles_per_cell) {
-    const Cells<Dim> cells(positions.size(), Positions<Dim>{positions}, cell_width);
-    if (!(particles_per_cell > 0.0)) particles_per_cell = static_cast<double>(positions.size()) / static_cast<double>(cells.total());
+    build(positions, Cells<Dim>(positions.size(), Positions<Dim>{positions}, cell_width), particles_per_cell, 1);
+  }
+  /// Given cells; those in one are sorted into its `parts` along each direction.
+  void build(std::span<const Vector<Dim>> positions, const Cells<Dim>& cells, double particles_per_cell, int parts) {
+    Bounds<Dim> bounds = bounds_of<Dim>(positions.size(), Positions<Dim>{positions});  // perhaps a part of the cells
+    if (bounds.empty()) bounds.add(cells.lower);
+    // The place of a part of a cell in the order is a sum of one number per direction.
+    Cells<Dim> divided = cells;
+    std::array<int, Dim> first, count, blocks, width;
+    double total = 1.0;
+    int places_per_cell = 1, number_of_blocks = 1;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const int along = static_cast<int>(d);
+      divided.count[d] *= parts;
+      divided.width[along] /= parts;
+      divided.inverse_width[along] *= parts;
+      first[d] = cells.along(bounds.lower[along], along);
+      count[d] = cells.along(bounds.upper[along], along) + 1 - first[d];
+      total *= count[d];
+      places_per_cell *= parts;
+    }
+    if (!(particles_per_cell > 0.0)) particles_per_cell = static_cast<double>(positions.size()) / total;
     const double side =
         std::pow(static_cast<double>(Blocks::rows_wanted(positions.size())) / std::max(particles_per_cell, 1e-3), 1.0 / Dim);
-    // The place of a cell in the order is a sum of one number per direction.
-    std::array<int, Dim> blocks, width;
-    int cells_per_block = 1, number_of_blocks = 1;
+    int places_per_block = places_per_cell;
     for (std::size_t d = 0; d < Dim; ++d) {
-      blocks[d] = std::max(1, static_cast<int>(std::lround(cells.count[d] / side)));
-      width[d] = (cells.count[d] + blocks[d] - 1) / blocks[d];
-      cells_per_block *= width[d];
+      blocks[d] = std::max(1, static_cast<int>(std::lround(count[d] / side)));
+      width[d] = (count[d] + blocks[d] - 1) / blocks[d];
+      places_per_block *= width[d];
       number_of_blocks *= blocks[d];
     }
-    int block_stride = cells_per_block, cell_stride = 1;
+    int block_stride = places_per_block, cell_stride = places_per_cell, part_stride = places_per_cell;
     for (std::size_t d = 0; d < Dim; ++d) {
-      place_[d].resize(static_cast<std::size_t>(cells.count[d]));
-      for (int c = 0; c < cells.count[d]; ++c)
-        place_[d][static_cast<std::size_t>(c)] = static_cast<std::size_t>(c / width[d] * block_stride + c % width[d] * cell_stride);
+      part_stride /= parts;  // slices across the first direction one after the other
+      place_[d].assign(static_cast<std::size_t>(divided.count[d]), 0);
+      for (int part = 0; part < parts * count[d]; ++part) {
+        const int cell = part / parts;
+        place_[d][static_cast<std::size_t>(parts * first[d] + part)] =
+            static_cast<std::size_t>(cell / width[d] * block_stride + cell % width[d] * cell_stride + part % parts * part_stride);
+      }
       block_stride *= blocks[d];
       cell_stride *= width[d];
     }
-    sort_.sort(positions.size(), static_cast<std::size_t>(number_of_blocks * cells_per_block), [&](std::size_t k) {
+    sort_.sort(positions.size(), static_cast<std::size_t>(number_of_blocks * places_per_block), [&](std::size_t k) {
       std::size_t place = 0;
-      for (int d = 0; d < Dim; ++d) place += place_[static_cast<std::size_t>(d)][static_cast<std::size_t>(cells.along(positions[k][d], d))];
+      for (std::size_t d = 0; d < Dim; ++d) {
+        const int along = static_cast<int>(d);
+        place += place_[d][static_cast<std::size_t>(divided.along(positions[k][along], along))];
+      }
       return place;
     });
     bounds_.assign(1, 0);
     const std::size_t most = 4 * Blocks::rows_wanted(positions.size());  // where a few far away make cells wide, blocks would be few
     static_assert(4 * Blocks::rows_wanted(std::numeric_limits<std::size_t>::max()) <= Blocks::most_rows);
     for (int block = 1; block <= number_of_blocks; ++block) {
-      const std::size_t first = bounds_.back(), rows = sort_.begin(static_cast<std::size_t>(block * cells_per_block)) - first;
-      const std::size_t parts = (rows + most - 1) / most;
-      for (std::size_t part = 1; part <= parts; ++part) bounds_.push_back(first + rows * part / parts);
+      const std::size_t begin = bounds_.back(), rows = sort_.begin(static_cast<std::size_t>(block * places_per_block)) - begin;
+      const std::size_t pieces = (rows + most - 1) / most;
+      for (std::size_t piece = 1; piece <= pieces; ++piece) bounds_.push_back(begin + rows * piece / pieces);
     }
     if (bounds_.size() == 1) bounds_.push_back(0);
   }

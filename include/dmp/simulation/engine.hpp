@@ -38,7 +38,7 @@ class Engine : public Dashpots<Dim, Integrator, Precision, Item...> {
   /// Accelerations and rates from the present state, e.g. before the first step; `time` [s] as forcings see it, `step` as summed laws do.
   void evaluate(double time, std::uint64_t step) {
     for_each_group([&](auto& g) { for_each_particle(g, [&](std::size_t i) { follow_motion(g, i, time); }); });
-    this->build_lists(true);
+    this->build_lists();
     this->pack_all(0.0);
     this->gather_summed(step, 0.0);
     if constexpr (has_substeps) this->fast_forces(0.0);

@@ -21,10 +21,10 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
  public:
   using Base::Base, Base::group, Base::for_each_group, Base::for_each_item, Base::refresh_frozen;
 
-  /// Fresh lists and ghosts; every particle may have got another row. The records of groups that evolve must be packed next. With `sort`, a
-  /// run that goes on from here and one that restarts here from a checkpoint do the same arithmetic.
-  void build_lists(bool sort) {
-    this->find_neighbours(sort);
+  /// Fresh lists and ghosts; every particle may have got another row. The records of groups that evolve must be packed next. A run that
+  /// goes on from here and one that restarts here from a checkpoint do the same arithmetic.
+  void build_lists() {
+    this->find_neighbours();
     for_each_group([](auto& g) {
       using C = LayoutOf<decltype(g)>;
       if constexpr (C::has_records) g.records.resize(g.first_ghost() + g.ghost_count());
@@ -342,7 +342,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
     return result;
   }
 
-  sweep::Periods<Dim> bond_periods_{this->periods_};
+  sweep::Periods<Dim> bond_periods_{this->periods()};
 };
 
 }  // namespace dmp::simulation

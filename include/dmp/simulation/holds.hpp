@@ -13,8 +13,8 @@
 #include <dmp/core/pack.hpp>
 #include <dmp/core/threads.hpp>
 #include <dmp/core/vector.hpp>
-#include <dmp/geometry/box.hpp>
 #include <dmp/neighbours/bond_list.hpp>
+#include <dmp/sweep/bonds.hpp>
 #include <dmp/sweep/gather.hpp>
 
 namespace dmp::simulation::detail {
@@ -83,7 +83,7 @@ template <class Law>
 /// whose square overflows, may act in any direction.
 template <class Law, class G, class Partners>
 void add_holds(const Law& law, double per_mass, const neighbours::BondList& list, const G& g, const Partners& partners,
-               const geometry::Box<G::Dim>& box, Holds<G::Dim>& springs, Holds<G::Dim>& dashpots) {
+               const sweep::Periods<G::Dim>& periods, Holds<G::Dim>& springs, Holds<G::Dim>& dashpots) {
   using sweep::Lanes;
   constexpr int Dim = G::Dim, width = Lanes::width, numbers = Holds<Dim>::numbers, stride = Holds<Dim>::stride;
   constexpr bool with_dashpots = bond::UsesVelocity<Law>;
@@ -91,23 +91,14 @@ void add_holds(const Law& law, double per_mass, const neighbours::BondList& list
   springs.make(g.first_ghost());
   if constexpr (with_dashpots) dashpots.make(g.first_ghost());
   const auto& there = partners.positions();
-  const auto add_one = [&]<bool Crosses>(std::size_t i, std::bool_constant<Crosses>) {
+  const auto add_one = [&](std::size_t i) {
     const auto bonds = list.of(i);
     const Vector<Dim>& here = g.positions()[i];
     Lanes own[numbers], own_dashpots[numbers];
     for (int n = 0; n < numbers; ++n) own[n] = own_dashpots[n] = 0.0;
     for (std::size_t k = 0; k < bonds.size; k += width) {
-      double numbers_apart[Dim][width];
-      unrolled<width>([&](auto lane) __attribute__((always_inline)) {
-        Vector<Dim> one = here - there[bonds.partner[k + lane] / Partners::Records::stride];
-        if constexpr (Crosses) one = neighbours::minimum_image<Dim>(one, box);
-        unrolled<Dim>([&](auto d) __attribute__((always_inline)) { numbers_apart[d][lane] = one[d]; });
-      });
-      Lanes apart[Dim], squared(0.0);
-      unrolled<Dim>([&](auto d) __attribute__((always_inline)) {
-        apart[d] = Lanes::load(numbers_apart[d]);
-        squared += apart[d] * apart[d];
-      });
+      const auto apart = sweep::separations_of<Partners::Records::stride>(here, there.data(), bonds.partner + k, periods);
+      const Lanes squared = dot(apart, apart);
       bond::FullState<Lanes> seen{};
       seen.length = sqrt(squared);
       seen.rest_length = Lanes::load(bonds.rest_length + k);
@@ -149,10 +140,7 @@ void add_holds(const Law& law, double per_mass, const neighbours::BondList& list
     if constexpr (with_dashpots) add_own(own_dashpots, dashpots);
   };
   for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-    for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) {
-      if (list.crosses(i)) add_one(i, std::true_type{});
-      else add_one(i, std::false_type{});
-    }
+    for (std::size_t i = g.blocks.begin(block); i < g.blocks.end(block); ++i) add_one(i);
   });
 }
 

@@ -121,7 +121,7 @@ template <class Engine, class G>
     double share = 0.0;
     if (items > 1) {
       Holds<G::Dim> springs, dashpots;
-      add_holds(item.law, per_mass, list, g, partners, engine.box(), springs, dashpots);
+      add_holds(item.law, per_mass, list, g, partners, engine.periods(), springs, dashpots);
       share = by_dashpot ? dashpots.largest(i) : springs.largest(i);
     }
     if (share <= most) return;
@@ -150,10 +150,9 @@ void limit_group(const Engine& engine, const G& g, double time, BondKind kind, c
     std::vector<double> forced;       // omega^2 of forcings; empty without any that have a stiffness
     double drag = 0.0;
     if constexpr (G::Layout::has_bonds)
-      for_each_bonds_of(engine, g, kind,
-                        [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto& partners) {
-                          add_holds(item.law, per_mass, list, g, partners, engine.box(), springs, dashpots);
-                        });
+      for_each_bonds_of(engine, g, kind, [&](const auto& item, double per_mass, const neighbours::BondList& list, const auto& partners) {
+        add_holds(item.law, per_mass, list, g, partners, engine.periods(), springs, dashpots);
+      });
     engine.for_each_item([&](const auto& active) {
       using I = std::remove_cvref_t<decltype(active.item)>;
       if constexpr (is_forced<I>)

@@ -46,11 +46,12 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
   template <class G>
   static constexpr bool evolves = Base::template evolves<G>;
 
-  /// Wraps positions into the periodic box, finds ghosts and neighbours; every so often, or if `sort`, sorts the particles in space first.
-  void find_neighbours(bool sort) {
-    builds_since_sort_ = sort || builds_since_sort_ + 1 >= builds_per_sort ? 0 : builds_since_sort_ + 1;
-    for_each_group([&](auto& g) { settle(g, builds_since_sort_ == 0); });
+  /// Wraps positions into the periodic box, sorts the particles in space, finds ghosts and neighbours.
+  void find_neighbours() {
+    for_each_group([this](auto& g) { wrap(g.positions(), g.blocks.ranges()); });
     if constexpr (has_pairs) {
+      lay_out_cells();
+      for_each_group([&](auto& g) { sort_in_space(g); });
       this->renew_exclusions();
       for_each_group([&](auto& g) { prepare_sources(g); });
       for_each_item([&](auto& active) {
@@ -121,16 +122,36 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
   template <class G>
   static constexpr bool has_lists = LayoutOf<G>::has_pairs && evolves<G>;
 
-  template <class G>
-  void settle(G& g, bool sort) {  // positions into the box, particles into spatial order
-    for_each_range(g.blocks.ranges(), [&](std::size_t, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) g.positions()[i] = this->box_.wrap(g.positions()[i]);
+  void wrap(std::span<Vector<Dim>> positions, const Ranges& ranges) const {
+    for_each_range(ranges, [&](std::size_t, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) positions[i] = this->box_.wrap(positions[i]);
     });
-    if constexpr (LayoutOf<G>::has_pairs) {
-      if (G::Mobility::moves && sort && g.may_be_sorted) {
-        const double cell = 0.5 * (longest_cutoff_ + skin_);
-        order_.build(g.positions(), cell, g.spacing > 0.0 ? std::pow(cell / g.spacing, Dim) : 0.0);
+  }
+  /// Coarse cells over all that can be found by pair laws, and how records write positions there.
+  void lay_out_cells() {
+    neighbours::Bounds<Dim> bounds;
+    std::size_t particles = 0;
+    for_each_group([&](auto& g) {
+      if constexpr (LayoutOf<decltype(g)>::has_pairs) {
+        particles += g.size();
+        bounds.add(neighbours::bounds_of<Dim>(g.size(), neighbours::Positions<Dim>{g.positions()}));
+      }
+    });
+    const double reach = longest_cutoff_ + skin_;
+    relative_motion_.build(bounds, this->box_, longest_cutoff_, skin_, particles);
+    const double extent = 2.0 * ((bounds.upper - bounds.lower).maxCoeff() + 4.0 * reach);  // room for ghosts, and for moving along
+    for_each_group([&](auto& g) { g.records.set_frame({0.5 * (bounds.lower + bounds.upper), extent}); });
+  }
+
+  /// Neighbours in space become neighbours in memory, and those of a coarse cell one run.
+  template <class G>
+  void sort_in_space(G& g) {
+    if constexpr (LayoutOf<G>::has_pairs && G::Mobility::moves) {
+      if (g.may_be_sorted) {
+        const auto& cells = relative_motion_.cells();
+        order_.build(g.positions(), cells, g.spacing > 0.0 ? cells.width.prod() / std::pow(g.spacing, Dim) : 0.0, 2);
         g.blocks.set_bounds(order_.bounds());
+
         // Records are packed anew after this: their memory is free, and takes one column at a time.
         const std::size_t rows_for_a_column = g.size() * Dim * sizeof(double) / G::Records::bytes_per_particle() + 1;
         g.records.resize(std::max(g.records.size(), rows_for_a_column));
@@ -187,28 +208,6 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
 
   /// The present positions are what relative motion is counted from.
   void follow_from_here() {
-    neighbours::Bounds<Dim> bounds;
-    std::size_t particles = 0;
-    for_each_group([&](auto& g) {
-      if constexpr (LayoutOf<decltype(g)>::has_pairs) {
-        particles += g.size();
-        bounds.add(merge_ranges(
-            g.blocks.ranges(), neighbours::Bounds<Dim>{},
-            [&g](std::size_t first, std::size_t last) {
-              neighbours::Bounds<Dim> part;
-              for (std::size_t i = first; i < last; ++i) part.add(g.positions()[i]);
-              return part;
-            },
-            [](neighbours::Bounds<Dim> a, const neighbours::Bounds<Dim>& b) {
-              a.add(b);
-              return a;
-            }));
-      }
-    });
-    const double reach = longest_cutoff_ + skin_;
-    relative_motion_.build(bounds, this->box_, longest_cutoff_, skin_, particles);
-    const double extent = 2.0 * ((bounds.upper - bounds.lower).maxCoeff() + 4.0 * reach);  // room for ghosts, and for moving along
-    for_each_group([&](auto& g) { g.records.set_frame({0.5 * (bounds.lower + bounds.upper), extent}); });
     for_each_group([&](auto& g) {
       using G = std::remove_cvref_t<decltype(g)>;
       if constexpr (LayoutOf<G>::has_pairs) {
@@ -222,8 +221,6 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
   double longest_cutoff_ = 0.0, skin_ = 0.0;
   neighbours::RelativeMotion<Dim> relative_motion_;  // since the lists were built
   neighbours::SpatialOrder<Dim> order_;
-  static constexpr int builds_per_sort = 8;  // the order ages far more slowly than the lists
-  int builds_since_sort_ = 0;
   std::uint64_t list_builds_ = 0;
 };
 

@@ -181,20 +181,21 @@ class Model {
   [[nodiscard]] const neighbours::Bond* find_long_bond(const Active& active) const {
     using I = decltype(active.item);
     if (periods_ == std::array<double, Dim>{}) return nullptr;
-    const auto& a = group<typename I::A>().positions();
-    const auto& b = group<typename I::B>().positions();
+    const auto& a = group<typename I::A>();
+    const auto& b = group<typename I::B>();
+    if (!active.of_a.empty() ? !has_long_bonds(a, b, active.of_a) : !active.of_b.empty() && !has_long_bonds(b, a, active.of_b))
+      return nullptr;
     for (const auto& bond : active.item.bonds) {
       if (is_broken(active, bond)) continue;
-      const Vector<Dim> apart = neighbours::minimum_image<Dim>(a[bond.i] - b[bond.j], box_);
+      const Vector<Dim> apart = neighbours::minimum_image<Dim>(a.positions()[bond.i] - b.positions()[bond.j], box_);
       for (int d = 0; d < Dim; ++d)
-        if (const double period = periods_[static_cast<std::size_t>(d)];
-            period > 0.0 && std::fabs(apart[d]) > neighbours::longest_periodic_bond * period)
-          return &bond;
+        if (std::fabs(apart[d]) > longest_bond(static_cast<std::size_t>(d))) return &bond;
     }
     return nullptr;
   }
 
   [[nodiscard]] const geometry::Box<Dim>& box() const noexcept { return box_; }
+  [[nodiscard]] sweep::Periods<Dim> periods() const { return sweep::Periods<Dim>(periods_); }
 
  protected:
   using Lanes = Pack<typename Precision::Real, native_width<typename Precision::Real>>;
@@ -251,6 +252,35 @@ class Model {
   }
   static Items make_items(const auto& items) {
     return items.apply([]<class... I>(const I&... item) { return Items{{detail::Active<Dim, I>{item}}...}; });
+  }
+  /// Longest bond [m] along a direction.
+  [[nodiscard]] double longest_bond(std::size_t d) const noexcept {
+    return periods_[d] > 0.0 ? neighbours::longest_periodic_bond * periods_[d] : std::numeric_limits<double>::infinity();
+  }
+  /// Whether some of the bonds that group `own` lists are longer.
+  template <class G, class Partners>
+  [[nodiscard]] bool has_long_bonds(const G& own, const Partners& partners, const neighbours::BondList& list) const {
+    using sweep::Lanes;
+    const sweep::Periods<Dim> lengths = periods();
+    return merge_ranges(
+        own.blocks.ranges(), false,
+        [&](std::size_t first, std::size_t last) {
+          Lanes most(0.0);  // how far too long
+          for (std::size_t i = first; i < last; ++i) {
+            const auto bonds = list.of(i);
+            for (std::size_t k = 0; k < bonds.size; k += Lanes::width) {
+              const auto apart = sweep::separations_of<Partners::Records::stride>(own.positions()[i], partners.positions().data(),
+                                                                                  bonds.partner + k, lengths);
+              const auto is_bond = Lanes::load(bonds.rest_length + k) >= 0.0;
+              for (int d = 0; d < Dim; ++d)
+                most = max(most, select(is_bond, abs(apart[d]) - longest_bond(static_cast<std::size_t>(d)), 0.0));
+            }
+          }
+          bool result = false;
+          for (int lane = 0; lane < Lanes::width; ++lane) result = result || most[lane] > 0.0;
+          return result;
+        },
+        [](bool a, bool b) { return a || b; });
   }
   template <class Active>
   void prepare_bonds(Active& active) {

@@ -233,7 +233,7 @@ RelaxReport relax(Scene<Dim, Integrator, Precision, Item...>& scene, const Relax
     if (!(longest < std::numeric_limits<double>::infinity()))
       throw ParameterError("relax: no law of this scene bounds the time step, so nothing comes to rest");
     const bool worn = engine.begin_step(dt, time);
-    if (worn) engine.build_lists(false);
+    if (worn) engine.build_lists();
     engine.prepare_forces(dt, scene.step(), worn);
     engine.forces(has_contacts ? 0.0 : dt, time);  // planes stand still, as if there were no next step: rest_on_planes
     engine.end_step(dt);

@@ -106,7 +106,7 @@ class Scene {
   Scene& set_skin(double skin) {
     require_not_negative("scene: skin", skin, "m");
     engine_.set_skin(skin);
-    if (prepared_) engine_.build_lists(true);
+    if (prepared_) engine_.build_lists();
     return *this;
   }
   /// Calls observer(scene) at the start of the run and then every `interval` [s], at the step nearest to each multiple.
@@ -173,7 +173,7 @@ class Scene {
         if (engine_.has_refused()) check_materials(engine_, clock_, clock_.time_step);
         if (worn) {
           check_state(engine_, clock_);
-          engine_.build_lists(false);
+          engine_.build_lists();
         }
         engine_.prepare_forces(clock_.time_step, clock_.step, worn);
         if (engine_.has_refused())
@@ -237,7 +237,7 @@ class Scene {
   /// Writes everything that a bit-exact continuation needs. Also rebuilds the lists, so that this run and the restarted one go on alike.
   void checkpoint(const std::string& path) {
     prepare();
-    engine_.build_lists(true);
+    engine_.build_lists();
     write_checkpoint(path, signature(), views_of(engine_), clock_);
   }
   /// Continues from a checkpoint of the same composition and the same particle numbers. CheckpointError, and nothing is changed, if the
@@ -246,7 +246,7 @@ class Scene {
     clock_ = read_checkpoint(path, signature(), views_of(engine_));
     for (auto& observer : observers_) observer.done = due(observer);
     engine_.forget_exclusions();
-    engine_.build_lists(true);
+    engine_.build_lists();
     if (clock_.step == 0) engine_.start_afresh();
     prepared_ = true;
   }

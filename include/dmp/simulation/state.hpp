@@ -60,7 +60,7 @@ namespace detail {
 [[nodiscard]] inline bool are_fine(const particles::ColumnView& column) noexcept {
   constexpr std::size_t width = 8;
   double probe[width]{}, least[width];  // probes stay 0 as long as all values are finite
-  std::ranges::fill(least, 1.0);
+  std::fill(least, least + width, 1.0);
   const auto look = [&](std::size_t k, std::size_t lane) {
     probe[lane] += 0.0 * column.values[k];
     least[lane] = column.values[k] < least[lane] ? column.values[k] : least[lane];
@@ -69,7 +69,8 @@ namespace detail {
   for (; k + width <= column.values.size(); k += width)
     for (std::size_t lane = 0; lane < width; ++lane) look(k + lane, lane);
   for (; k < column.values.size(); ++k) look(k, 0);
-  return std::ranges::all_of(probe, [](double p) { return p == 0.0; }) && (!column.is_positive || std::ranges::min(least) > 0.0);
+  return std::all_of(probe, probe + width, [](double p) { return p == 0.0; }) &&
+         (!column.is_positive || *std::min_element(least, least + width) > 0.0);
 }
 }  // namespace detail
 
@@ -86,7 +87,8 @@ struct Fault {
 [[nodiscard]] inline Fault find_fault(const std::vector<particles::GroupView>& groups, std::span<const double> lower,
                                       std::span<const double> upper) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const bool unbounded = std::ranges::max(lower) == -infinity && std::ranges::min(upper) == infinity;
+  const bool unbounded =
+      *std::max_element(lower.begin(), lower.end()) == -infinity && *std::min_element(upper.begin(), upper.end()) == infinity;
   for (const auto& group : groups) {
     if (group.id.empty()) continue;  // bonds: what goes wrong with them shows in their particles
     const auto fault = [&](const char* what, const particles::ColumnView& column, std::size_t k) {

@@ -67,6 +67,8 @@ class Periods {
   }
   [[nodiscard, gnu::always_inline]] Row<Dim> length() const noexcept { return Row<Dim>::load(length_.data()); }
   [[nodiscard, gnu::always_inline]] Row<Dim> inverse() const noexcept { return Row<Dim>::load(inverse_.data()); }
+  [[nodiscard, gnu::always_inline]] double length(std::size_t d) const noexcept { return length_[d]; }
+  [[nodiscard, gnu::always_inline]] double inverse(std::size_t d) const noexcept { return inverse_[d]; }
 
  private:
   std::array<double, Row<Dim>::registers * Lanes::width> length_{}, inverse_{};
@@ -90,6 +92,23 @@ template <int Dim, bool Periodic, bool PositionsAlone>
     unrolled<Row<Dim>::registers>([&](auto r) __attribute__((always_inline)) {
       apart.part[r] = apart.part[r] - period.part[r] * nearest_whole(apart.part[r] * per_period.part[r]);
     });
+  return apart;
+}
+
+/// The same of a pack of partners at once: rows partner[0 .. width - 1] of `positions`, times Stride.
+template <int Stride, int Dim>
+[[nodiscard, gnu::always_inline]] inline Components<Dim, Lanes> separations_of(const Vector<Dim>& own, const Vector<Dim>* positions,
+                                                                               const std::uint32_t* partner,
+                                                                               const Periods<Dim>& periods) noexcept {
+  Components<Dim, Lanes> apart;
+  unrolled<Dim>([&](auto d) __attribute__((always_inline)) {
+    const Lanes there = [&]<std::size_t... Lane>(std::index_sequence<Lane...>) __attribute__((always_inline)) {
+      return Lanes(typename Lanes::Raw{positions[partner[Lane] / Stride][d]...});
+    }
+    (std::make_index_sequence<Lanes::width>{});
+    const Lanes direct = own[d] - there;
+    apart[d] = direct - periods.length(d) * nearest_whole(direct * periods.inverse(d));
+  });
   return apart;
 }
 
