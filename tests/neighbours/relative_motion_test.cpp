@@ -259,3 +259,24 @@ TEST_CASE("a few particles, however far apart, are followed with little memory")
   CHECK(few.used() >= 0.3);
   CHECK(few.motion.bytes() < 20000);
 }
+
+TEST_CASE_TEMPLATE("two that come near each other across a cell where nobody is are seen, along every axis", Dimension,
+                   std::integral_constant<int, 1>, std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+  constexpr int dim = Dimension::value;
+  const double reach = 0.1;
+  int unseen = 0, near = 0;
+  for (int axis = 0; axis < dim; ++axis)
+    for (double gap = 1.01 * reach; gap < 2.4 * reach; gap += 0.07 * reach)
+      for (double middle = 0.3; middle < 0.7; middle += 0.031) {
+        const Vector<dim> apart = 0.5 * gap * Vector<dim>::Unit(axis), approach = (0.5 * gap - 0.2 * reach) * Vector<dim>::Unit(axis);
+        const Vector<dim> centre = Vector<dim>::Constant(middle), corner = Vector<dim>::Ones();
+        Motion<dim> motion{.points = {centre - apart, centre + apart, Vector<dim>::Zero(), corner},  // the corners keep the cells small
+                           .moved = {approach, -approach, Vector<dim>::Zero(), Vector<dim>::Zero()},
+                           .box = test::cube<dim>(1.0, {}),
+                           .reach = reach};
+        near += motion.come_near() > 0.5 * reach ? 1 : 0;
+        unseen += motion.used() < motion.come_near() - 1e-14 ? 1 : 0;
+      }
+  CHECK(unseen == 0);
+  CHECK(near >= 100);
+}
