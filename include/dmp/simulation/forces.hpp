@@ -305,7 +305,7 @@ class Forces : public Packing<Dim, Integrator, Precision, Item...> {
             View<Dim, Lanes, typename C::writes> sums;
             sweep::set_zero(sums);
             if constexpr (!Fast && C::has_pairs) g.prefetch_for_sweep(i + 1024);
-            if constexpr (!Fast) sum_all_pairs(g, block, i, sums, add);
+            if constexpr (!Fast && C::has_pairs) sum_all_pairs(g, block, i, sums, add);
             if constexpr (adds_up_in_memory) total = g.sums.take(i, sums);
             else total = G::Sums::totals(sums);
           }
