@@ -93,6 +93,23 @@ TEST_CASE("a particle far away makes cells wide, but not the blocks of the other
     CHECK(order.bounds()[block + 1] - order.bounds()[block] <= 4 * Blocks::rows_wanted(points.size()));
 }
 
+TEST_CASE("a particle far away makes given cells wide, and the order neither slow nor large") {
+  for (const double far : {1e2, 1e3, 2e4, 1e6}) {
+    CAPTURE(far);
+    auto points = test::lattice<3>(20, 1.0);
+    points.back() = dmp::Vector<3>::Constant(far);
+    Bounds<3> bounds;
+    for (const auto& x : points) bounds.add(x);
+    dmp::neighbours::RelativeMotion<3> motion;
+    motion.build(bounds, test::cube<3>(4.0 * far), 0.13, 0.026, points.size());
+    SpatialOrder<3> order;
+    order.build(points, motion.cells(), motion.cells().width.prod() * 8000.0, 2);
+    CHECK(is_permutation(order, points.size()));
+    CHECK(bounds_are_right(order, points.size()));
+    CHECK(order.bytes() < 40'000'000);
+  }
+}
+
 TEST_CASE_TEMPLATE("within a block, those near in memory are near in space", Dimension, std::integral_constant<int, 1>,
                    std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int dim = Dimension::value;

@@ -45,7 +45,8 @@ class SpatialOrder {
         std::pow(static_cast<double>(Blocks::rows_wanted(positions.size())) / std::max(particles_per_cell, 1e-3), 1.0 / Dim);
     int places_per_block = places_per_cell;
     for (std::size_t d = 0; d < Dim; ++d) {
-      blocks[d] = std::max(1, static_cast<int>(std::lround(count[d] / side)));
+      // A cell at least, and all of them at most: particles far away make cells wide, so that few could fill a block each.
+      blocks[d] = static_cast<int>(std::clamp(std::round(count[d] / side), 1.0, static_cast<double>(count[d])));
       width[d] = (count[d] + blocks[d] - 1) / blocks[d];
       places_per_block *= width[d];
       number_of_blocks *= blocks[d];
