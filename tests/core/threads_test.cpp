@@ -84,7 +84,12 @@ TEST_CASE("blocks depend on the rows alone, not on the threads: equal, of 4096 r
   CHECK(Blocks(8191).size() == 1);
   CHECK(Blocks(8192).size() == 2);
   CHECK(Blocks(27 * 27 * 27).size() == 4);
-  CHECK(Blocks(46 * 46 * 46).size() == 8);  // layers of a cube, 5.75 to a block
+  CHECK(Blocks(36 * 36 * 36).size() == 4);  // layers of a cube: 6 blocks of 6 were possible, and are no power of two
+  CHECK(Blocks(43 * 43 * 43).size() == 4);  // 5.4 to a block would make 8
+  CHECK(Blocks(46 * 46 * 46).size() == 8);  // 5.75 to a block
+  CHECK(Blocks(128 * 128, 2).size() == 4);  // in the plane 4096 rows are the bound
+  CHECK(Blocks(256 * 256, 2).size() == 16);
+  CHECK(Blocks(100000, 1).size() == 16);
   CHECK(Blocks(1000000).size() == 16);
   CHECK(Blocks(16 * Blocks::most_rows).size() == 16);
   CHECK(Blocks(16 * Blocks::most_rows + 1).size() == 17);

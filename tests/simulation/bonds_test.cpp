@@ -457,6 +457,36 @@ TEST_CASE_TEMPLATE("a bond that outgrows a periodic box is found, whichever end 
   }
 }
 
+TEST_CASE("whichever of many bonds outgrows a periodic box, along whichever axis, is found") {
+  const bond::Harmonic weak{.stiffness = 1e-12};
+  int wrong = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const std::uint32_t leaves : {1u, 3u, 4u, 5u, 9u})  // of one hub; less than a pack, packs and a part of one
+      for (std::uint32_t leaving = 0; leaving < leaves; ++leaving) {
+        geometry::Points<3> beads{.positions = {Vector<3>::Constant(0.5)}, .spacing = 0.0, .volume = 1.0};
+        std::vector<neighbours::Bond> list;
+        for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+          beads.positions.push_back(beads.positions[0] + 0.01 * (leaf + 1) * Vector<3>::Unit((axis + 1) % 3));
+          list.push_back({0, leaf + 1});
+        }
+        geometry::Box<3> box{.lower = Vector<3>::Constant(-10.0), .upper = Vector<3>::Constant(10.0)};
+        box.lower[axis] = 0.0;
+        box.upper[axis] = 1.0;
+        box.periodic[static_cast<std::size_t>(axis)] = true;
+        auto scene = simulation::scene<integrator::Leapfrog>(box, simulation::group<Net>("star", particles::Mobile{}, beads, 1.0),
+                                                             simulation::bonds<Net, Net>(weak, list));
+        scene.group<Net>().get<field::Velocity>()[leaving + 1] = Vector<3>::Unit(axis);  // gone 0.45 of the box at 0.45 s
+        double found = -1.0;
+        try {
+          scene.run({.until = 0.6, .time_step = 1e-2, .check_every = 1});
+        } catch (const SimulationError& error) {
+          found = error.where.time;
+        }
+        wrong += found >= 0.45 - 1e-9 && found <= 0.48 ? 0 : 1;
+      }
+  CHECK(wrong == 0);
+}
+
 namespace {
 struct Plate {};
 /// 1 m/s to the right.

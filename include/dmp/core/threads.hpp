@@ -125,10 +125,10 @@ class Blocks {
 
   Blocks() = default;
   /// Equal blocks, for particles in an order that is not ours. Those that act on each other lie apart by whole layers of the body: blocks
-  /// are at least five and a half layers of a cube thick, so that few bonds are listed at both ends, and at most 16 unless those would
-  /// exceed `most_rows`.
-  explicit Blocks(std::size_t count) {
-    const auto thick = static_cast<std::size_t>(std::cbrt(static_cast<double>(count)) / 5.5);
+  /// are at least five and a half layers of a cube (in two dimensions a square) thick, so that few bonds are listed at both ends, and at
+  /// most 16 unless those would exceed `most_rows`.
+  explicit Blocks(std::size_t count, int dimension = 3) {
+    const auto thick = static_cast<std::size_t>(std::pow(static_cast<double>(count), 1.0 / dimension) / 5.5);
     const std::size_t wanted = std::clamp<std::size_t>(std::min(count / 4096, std::bit_floor(thick)), 1, 16);
     const std::size_t blocks = std::max(wanted, (count + most_rows - 1) / most_rows);
     bounds_.resize(blocks + 1);

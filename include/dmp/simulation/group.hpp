@@ -54,7 +54,7 @@ class Group : public detail::Neighbourhood<Item::Dim, Layout_::has_pairs> {
     id.resize(positions().size());
     for (std::size_t k = 0; k < id.size(); ++k) id[k] = static_cast<std::uint32_t>(k);
     constants.mass = mass;
-    blocks = Blocks(size());
+    blocks = Blocks(size(), Dim);
     if constexpr (Layout::has_pairs) this->at_list_build = positions();
   }
 
