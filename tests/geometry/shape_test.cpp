@@ -1,14 +1,15 @@
-#include <doctest/doctest.h>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <type_traits>
+#include "support/compare.hpp"
+#include <doctest/doctest.h>
 #include <dmp/core/math.hpp>
+#include <dmp/geometry/cylinder.hpp>
 #include <dmp/geometry/fill.hpp>
 #include <dmp/geometry/shape.hpp>
-#include "support/compare.hpp"
 
 using namespace dmp::geometry;
 using dmp::Vector;

@@ -28,15 +28,15 @@ struct Positions {
 /// The smallest box that holds some vectors; empty until one is added.
 template <int Dim>
 struct Bounds {
-  Vector<Dim> lower = Vector<Dim>::Constant(std::numeric_limits<double>::max()), upper = -lower;
+  Vector<Dim> lower = Vector<Dim>::Constant(std::numeric_limits<double>::max());
+  Vector<Dim> upper = Vector<Dim>::Constant(std::numeric_limits<double>::lowest());
 
-  void add(const Vector<Dim>& x) noexcept {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
+  void add(const Vector<Dim>& x) noexcept { add(Bounds{x, x}); }
   void add(const Bounds& other) noexcept {
-    lower = lower.cwiseMin(other.lower);
-    upper = upper.cwiseMax(other.upper);
+    for (int d = 0; d < Dim; ++d) {  // in this order: what is not a number counts for nothing
+      lower[d] = std::min(lower[d], other.lower[d]);
+      upper[d] = std::max(upper[d], other.upper[d]);
+    }
   }
   [[nodiscard]] bool empty() const noexcept { return !(lower[0] <= upper[0]); }
 };
