@@ -22,18 +22,32 @@ struct Motion {
   double reach;  // a fifth of it is skin
   RelativeMotion<Dim> motion{};
   std::vector<std::uint32_t> cell{};
+  test::Cloud<Dim> now{};
+  std::vector<typename RelativeMotion<Dim>::Followed> groups{};
 
   /// `block`: rows of a block; runs of one cell are cut where it ends. Rows before and after the middle are two groups.
-  double used(std::size_t block = 3) { return wear(block).used; }
+  double used(std::size_t block = 3) {
+    const auto found = wear(block);
+    return std::max(found.nearby, found.afar);
+  }
   typename RelativeMotion<Dim>::Wear wear(std::size_t block = 3) {
     Bounds<Dim> bounds;
     for (const auto& x : points) bounds.add(x);
     motion.build(bounds, box, 0.8 * reach, 0.2 * reach, points.size());
     cell.assign(points.size(), 0);
+    groups.clear();
+    now = points;
+    for (std::size_t i = 0; i < points.size(); ++i) now[i] += moved[i];
     const std::size_t half = points.size() / 2;
     follow(0, half, block);
     follow(half, points.size(), block);
+    motion.find_occupied();
     return motion.find_wear();
+  }
+  /// Whether two that are not in the lists may act on each other now.
+  bool worn(double shortest) {
+    const auto found = wear();
+    return found.afar > 0.2 * reach || (found.nearby > 0.2 * reach && motion.have_met(groups, shortest));
   }
   void follow(std::size_t first, std::size_t last, std::size_t block) {
     std::vector<std::size_t> bounds{0};
@@ -42,22 +56,32 @@ struct Motion {
     dmp::Blocks blocks;
     blocks.set_bounds(bounds);
     std::vector<std::size_t> first_run;
-    motion.follow(blocks, std::span<const Vector<Dim>>(points).subspan(first, last - first), first_run);
+    const auto then = std::span<const Vector<Dim>>(points).subspan(first, last - first);
+    motion.follow(blocks, then, first_run);
+    groups.push_back({first_run.front(), then, std::span<const Vector<Dim>>(now).subspan(first, last - first)});
     for (std::size_t b = 0; b < blocks.size(); ++b)
-      motion.for_each_run(blocks, first_run, b, [&](std::size_t number, const dmp::neighbours::Run& run, std::size_t end) {
+      motion.for_each_run(first_run, b, [&](std::size_t number, const dmp::neighbours::Run& run) {
         Bounds<Dim> displacement;
-        for (std::size_t i = run.first; i < end; ++i) {
+        for (std::size_t i = run.first; i < run.end; ++i) {
           displacement.add(moved[first + i]);
           cell[first + i] = run.cell;
         }
         motion.set_displacement(number, displacement);
       });
   }
-  /// The largest relative displacement of two that were within `distance` of each other, of particle i or (-1) of all.
-  [[nodiscard]] double largest(double distance, std::int64_t of = -1) const {
+  /// The largest relative displacement of two that were within `distance` of each other.
+  [[nodiscard]] double largest_relative(double distance) const {
+    double result = 0.0;
+    for_each_pair(-1, [&](const Vector<Dim>& before, const Vector<Dim>& relative) {
+      if (before.squaredNorm() <= distance * distance) result = std::max(result, relative.norm());
+    });
+    return result;
+  }
+  /// By how much the distance of two that were within the reach of each other has become less, at most, of particle i or (-1) of all.
+  [[nodiscard]] double largest_approach(std::int64_t of = -1) const {
     double result = 0.0;
     for_each_pair(of, [&](const Vector<Dim>& before, const Vector<Dim>& relative) {
-      if (before.squaredNorm() <= distance * distance) result = std::max(result, relative.norm());
+      if (before.norm() <= reach) result = std::max(result, before.norm() - (before + relative).norm());
     });
     return result;
   }
@@ -94,18 +118,19 @@ void check_against_every_pair(test::Cloud<Dim> points, const std::array<bool, Di
     Motion<Dim> motion{.points = points, .moved = {}, .box = test::cube<Dim>(1.0, periodic), .reach = reach};
     for (const auto& x : points) motion.moved.push_back(displacement(x));
     const double found = motion.used();
-    CHECK(found >= motion.largest(reach) * (1.0 - 1e-14));
+    CHECK(found >= motion.largest_approach() - 1e-14);
     CHECK(found >= motion.come_near() - 1e-14);
-    CHECK(found <= std::sqrt(Dim) * motion.largest(INFINITY) * (1.0 + 1e-14));
+    CHECK(found <= std::sqrt(Dim) * motion.largest_relative(INFINITY) * (1.0 + 1e-14));
+    CHECK_FALSE((motion.come_near() > 0.2 * reach && !motion.worn(0.8 * reach)));
     double largest_used = 0.0;
     int too_small = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       largest_used = std::max(largest_used, motion.motion.used(motion.cell[i]));
-      too_small += motion.motion.used(motion.cell[i]) < motion.largest(reach, static_cast<std::int64_t>(i)) * (1.0 - 1e-14);
+      too_small += motion.motion.used(motion.cell[i]) < motion.largest_approach(static_cast<std::int64_t>(i)) - 1e-14;
     }
     CHECK(too_small == 0);
     CHECK(largest_used <= found);
-    CHECK(largest_used <= std::sqrt(Dim) * motion.largest(std::sqrt(Dim) * 5.2 * reach) * (1.0 + 1e-14));
+    CHECK(largest_used <= std::sqrt(Dim) * motion.largest_relative(std::sqrt(Dim) * 5.2 * reach) * (1.0 + 1e-14));
   }
 }
 
@@ -131,23 +156,23 @@ void check_motions(const std::array<bool, Dim>& periodic) {
 
 }  // namespace
 
-TEST_CASE("no two neighbours have moved relative to each other by more than is found, nor have others come nearer, on the line") {
+TEST_CASE("no two neighbours have approached each other by more than is found, nor have others come nearer, on the line") {
   check_motions<1>({false});
   check_motions<1>({true});
 }
-TEST_CASE("no two neighbours have moved relative to each other by more than is found, nor have others come nearer, in the plane") {
+TEST_CASE("no two neighbours have approached each other by more than is found, nor have others come nearer, in the plane") {
   check_motions<2>({false, false});
   check_motions<2>({true, true});
   check_motions<2>({false, true});
 }
-TEST_CASE("no two neighbours have moved relative to each other by more than is found, nor have others come nearer, in space") {
+TEST_CASE("no two neighbours have approached each other by more than is found, nor have others come nearer, in space") {
   check_motions<3>({false, false, false});
   check_motions<3>({true, true, true});
   check_motions<3>({true, false, true});
 }
 
-TEST_CASE_TEMPLATE("what moves along together wears no lists: exactly 0, however far it has gone", Dimension, std::integral_constant<int, 1>,
-                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+TEST_CASE_TEMPLATE("what moves along together wears no lists: exactly 0, however far it has gone", Dimension,
+                   std::integral_constant<int, 1>, std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int dim = Dimension::value;
   for (const double far : {0.0, 0.1, 1.0, 1e6, 1e200}) {
     const auto points = test::scattered<dim>(300, 1.0, 1);
@@ -164,26 +189,27 @@ TEST_CASE("how far the farthest has gone along an axis, whoever goes with it") {
                    .moved = test::Cloud<2>(300, Vector<2>(0.25, -3.0)),
                    .box = test::cube<2>(1.0, {true, true}),
                    .reach = 0.2};
-  CHECK(motion.wear().used == 0.0);
+  CHECK(motion.used() == 0.0);
   CHECK(motion.wear().farthest == 3.0);
   motion.moved[17] = Vector<2>(5.0, 0.0);
-  CHECK(motion.wear().used > 0.0);
+  CHECK(motion.used() > 0.0);
   CHECK(motion.wear().farthest == 5.0);
 }
 
 TEST_CASE("how two move is none of each other's affair unless they were neighbours, also through a periodic face") {
-  const auto used = [](double a, double b, bool periodic) {
+  const auto used = [](double a, double b, double way, bool periodic) {
     Motion<1> motion{.points = {Vector<1>(a), Vector<1>(b), Vector<1>(-0.5), Vector<1>(0.49)},
-                     .moved = {Vector<1>(0.05), Vector<1>(-0.05)},
+                     .moved = {Vector<1>(way), Vector<1>(-way)},
                      .box = test::cube<1>(1.0, {periodic}),
                      .reach = 0.1};
     motion.moved.push_back(motion.points[0][0] < -0.3 ? motion.moved[0] : motion.moved[1]);  // those at the ends go with their neighbours
     motion.moved.push_back(motion.points[0][0] > 0.3 ? motion.moved[0] : motion.moved[1]);
     return motion.used();
   };
-  CHECK(used(0.0, 0.05, false) == doctest::Approx(0.1).epsilon(1e-14));
-  CHECK(used(-0.45, 0.45, false) == 0.0);
-  CHECK(used(-0.45, 0.45, true) == doctest::Approx(0.1).epsilon(1e-14));
+  CHECK(used(0.0, 0.05, 0.05, false) == doctest::Approx(0.1).epsilon(1e-14));
+  CHECK(used(-0.45, 0.45, -0.05, false) == 0.0);
+  CHECK(used(-0.45, 0.45, -0.05, true) == doctest::Approx(0.1).epsilon(1e-14));
+  CHECK(used(-0.45, 0.45, 0.05, true) == 0.0);  // away from each other
 }
 
 TEST_CASE("two that come from afar have used up the skin before they meet, whatever lies between them, also through a periodic face") {
@@ -200,7 +226,8 @@ TEST_CASE("two that come from afar have used up the skin before they meet, whate
         motion.moved[0] = Vector<1>(share * way);
         motion.moved[1] = Vector<1>((share - 1.0) * way);
         const auto wear = motion.wear();
-        CHECK((wear.used > 0.02 || wear.farthest > 0.08));
+        CHECK((std::max(wear.nearby, wear.afar) > 0.02 || wear.farthest > 0.08));
+        CHECK((motion.worn(0.08) || wear.farthest > 0.08));
       }
 }
 
@@ -279,4 +306,87 @@ TEST_CASE_TEMPLATE("two that come near each other across a cell where nobody is 
       }
   CHECK(unseen == 0);
   CHECK(near >= 100);
+}
+
+TEST_CASE_TEMPLATE("in a flow that widens the lists wear half as fast as in one that narrows", Dimension, std::integral_constant<int, 1>,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+  constexpr int dim = Dimension::value;
+  const auto used = [](double strain) {
+    Motion<dim> motion{.points = test::lattice<dim>(16, 1.0), .moved = {}, .box = test::cube<dim>(1.0, {}), .reach = 0.15};
+    for (const auto& x : motion.points) motion.moved.push_back(strain * x);
+    return motion.used();
+  };
+  CHECK(used(0.01) > 0.0);
+  CHECK(used(0.01) <= 0.5 * used(-0.01) * (1.0 + 1e-12));
+}
+
+TEST_CASE("where a layer slides on another, lists are worn when two have met that were not listed, no sooner and no later") {
+  for (const std::size_t along : {std::size_t{0}, std::size_t{1}})
+    for (const bool periodic : {true, false}) {  // the latter in all of space
+      CAPTURE(along);
+      CAPTURE(periodic);
+      const auto x = static_cast<int>(along), y = 1 - x;
+      std::array<bool, 2> faces{};
+      faces[along] = periodic;
+      const Box<2> box = periodic ? test::cube<2>(1.0, faces) : Box<2>::unbounded();
+      Motion<2> motion{.points = test::lattice<2>(60, 1.0), .moved = {}, .box = box, .reach = 0.06};
+      int bounds_exceed = 0, have_met = 0;
+      for (double way = 0.6e-2; way < 1.7e-2; way += 0.1e-2) {
+        motion.moved.assign(motion.points.size(), Vector<2>::Zero());
+        for (std::size_t i = 0; i < motion.points.size(); ++i)
+          if (motion.points[i][y] > 0.1) motion.moved[i][x] = way;
+        const bool met = motion.come_near() > 0.2 * motion.reach;
+        CHECK(motion.worn(0.8 * motion.reach) == met);
+        bounds_exceed += motion.used() > 0.2 * motion.reach && !met ? 1 : 0;
+        have_met += met ? 1 : 0;
+      }
+      CHECK(bounds_exceed > 0);
+      CHECK(have_met > 0);
+    }
+}
+
+TEST_CASE("in a crowd of more than fit at once everybody is looked at") {
+  const double reach = 0.1;
+  test::Random random(3);
+  test::Cloud<2> points;
+  for (int k = 0; k < 200; ++k)  // two heaps, a little more than the reach apart
+    points.emplace_back((k < 90 ? 0.0 : 1.05 * reach) + 1e-6 * random(), 1e-6 * random());
+  for (const auto& x : test::lattice<2>(75, 1.0)) points.push_back(x + Vector<2>(1.2, 0.0));  // others, who make it worth while
+  Motion<2> crowd{.points = points, .moved = {}, .box = test::cube<2>(4.0, {}), .reach = reach};
+  int overlooked = 0, mistaken = 0;
+  for (std::size_t one = 0; one < 90; one += 11)
+    for (std::size_t other = 90; other < 200; other += 13) {
+      crowd.moved.assign(points.size(), Vector<2>::Zero());
+      crowd.moved[one] = {0.126 * reach, 0.0};
+      crowd.moved[other] = {-0.126 * reach, 0.0};
+      overlooked += crowd.worn(0.8 * reach) ? 0 : 1;
+      crowd.moved[other] = {-0.122 * reach, 0.0};
+      CHECK(crowd.used() > 0.2 * reach);
+      mistaken += crowd.worn(0.8 * reach) ? 1 : 0;
+    }
+  CHECK(overlooked == 0);
+  CHECK(mistaken == 0);
+}
+
+TEST_CASE("two cut-offs: lists of the shorter one lack pairs that those of the longer one hold") {
+  Motion<1> motion{.points = {Vector<1>(0.0), Vector<1>(0.08), Vector<1>(0.9)},
+                   .moved = test::Cloud<1>(3, Vector<1>(0.0)),
+                   .box = test::cube<1>(2.0),
+                   .reach = 0.1};
+  motion.points.insert(motion.points.end(), 60, Vector<1>(0.9));  // others, who make it worth while
+  motion.moved.insert(motion.moved.end(), 60, Vector<1>(0.0));
+  motion.moved[0] = Vector<1>(0.021);  // 0.059 apart; the skin is 0.02
+  CHECK_FALSE(motion.worn(0.08));
+  CHECK_FALSE(motion.worn(0.0601));  // listed by both
+  CHECK(motion.worn(0.0599));
+  CHECK(motion.worn(0.04));
+  motion.moved[0] = Vector<1>(0.019);
+  CHECK_FALSE(motion.worn(0.04));
+}
+
+TEST_CASE("where all move about, new lists are worth more than to look at every pair") {
+  Motion<2> motion{.points = test::lattice<2>(30, 1.0), .moved = {}, .box = test::cube<2>(1.0, {true, true}), .reach = 0.2};
+  for (const auto& x : motion.points) motion.moved.push_back(Vector<2>(-0.15 * x[1], 0.15 * x[0]));  // a rotation: nobody meets
+  CHECK(motion.used() > 0.2 * motion.reach);
+  CHECK(motion.worn(0.8 * motion.reach));
 }

@@ -1,8 +1,10 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -26,8 +28,10 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
 
   Lists(const geometry::Box<Dim>& box, const Item&... item) : Base(box, item...) {
     for_each_item([&](const auto& active) {
-      if constexpr (is_interaction<std::remove_cvref_t<decltype(active.item)>>)
+      if constexpr (is_interaction<std::remove_cvref_t<decltype(active.item)>>) {
         longest_cutoff_ = std::max(longest_cutoff_, active.item.cutoff());
+        shortest_cutoff_ = std::min(shortest_cutoff_, active.item.cutoff());
+      }
     });
     skin_ = 0.2 * longest_cutoff_;  // least time of a step, see docs/performance.md
   }
@@ -85,14 +89,15 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
     if constexpr (has_pairs) {
       if (this->exclusions_are_worn()) return true;
       const auto wear = relative_motion_.find_wear();
-      if (!(wear.used <= skin_)) return true;
+      if (!(wear.afar <= skin_)) return true;
       if (wear.farthest > longest_cutoff_) return true;  // time to go back into the periodic box
+      if (!(wear.nearby <= skin_) && neighbours_have_met()) return true;
       for_each_group([this](auto& g) {
         if constexpr (has_lists<decltype(g)>)
           for_each_block(g.blocks, [&](std::size_t, std::size_t block) {
-            relative_motion_.for_each_run(g.blocks, g.first_run, block, [&](std::size_t, const neighbours::Run& run, std::size_t end) {
+            relative_motion_.for_each_run(g.first_run, block, [&](std::size_t, const neighbours::Run run) {
               const std::size_t level = neighbours::PairList::level_at(relative_motion_.used(run.cell) / skin_);
-              std::fill(g.level.data() + run.first, g.level.data() + end, static_cast<std::uint8_t>(level));
+              std::fill(g.level.data() + run.first, g.level.data() + run.end, static_cast<std::uint8_t>(level));
             });
           });
       });
@@ -104,9 +109,9 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
   template <class G, class Function>
   void follow(const G& g, std::size_t block, const Function& function) {
     if constexpr (G::Mobility::moves && LayoutOf<G>::has_pairs) {
-      relative_motion_.for_each_run(g.blocks, g.first_run, block, [&](std::size_t number, const neighbours::Run& run, std::size_t end) {
+      relative_motion_.for_each_run(g.first_run, block, [&](std::size_t number, const neighbours::Run run) {
         neighbours::Bounds<Dim> bounds;
-        for (std::size_t i = run.first; i < end; ++i) {
+        for (std::size_t i = run.first; i < run.end; ++i) {
           function(i);
           bounds.add(g.positions()[i] - g.at_list_build[i]);
         }
@@ -216,9 +221,23 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
         if constexpr (has_lists<G>) g.level.assign(g.size(), 0);
       }
     });
+    relative_motion_.find_occupied();
   }
 
-  double longest_cutoff_ = 0.0, skin_ = 0.0;
+  /// Whether particles in cells that touch may act on each other that are not in the lists, as their pairs show.
+  [[nodiscard]] bool neighbours_have_met() {
+    std::array<typename neighbours::RelativeMotion<Dim>::Followed, sizeof...(Item)> groups;
+    std::size_t followed = 0;
+    for_each_group([&](const auto& g) {
+      using G = std::remove_cvref_t<decltype(g)>;
+      if constexpr (LayoutOf<G>::has_pairs)
+        groups[followed++] = {g.first_run.front(), G::Mobility::moves ? std::span(g.at_list_build) : std::span(g.positions()),
+                              g.positions()};
+    });
+    return relative_motion_.have_met({groups.data(), followed}, shortest_cutoff_);
+  }
+
+  double longest_cutoff_ = 0.0, shortest_cutoff_ = std::numeric_limits<double>::infinity(), skin_ = 0.0;
   neighbours::RelativeMotion<Dim> relative_motion_;  // since the lists were built
   neighbours::SpatialOrder<Dim> order_;
   std::uint64_t list_builds_ = 0;
