@@ -41,7 +41,7 @@ struct Sample {
     for (const std::uint32_t row : order.rows()) positions.push_back(unsorted[row]);
     blocks.set_bounds(order.bounds());
     neighbours::CellGrid<3> grid;
-    grid.build(positions, 0.5 * support_radius);
+    grid.build(positions, 0.8 * support_radius);
     const auto size = static_cast<std::uint32_t>(positions.size()), all = static_cast<std::uint32_t>(blocks.far_row(blocks.size()));
     pairs.build<3>(blocks, positions, grid, support_radius, 0.0,
                    {.same_group = true, .owned = size, .first_ghost = all, .owner = {}, .once = Precision::pairs_once}, {}, Lanes::width);

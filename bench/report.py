@@ -27,7 +27,7 @@ from time import monotonic
 from processes import Failure, execute, put_table, table
 
 THREADS = (2, 4)
-SKINS = (50, 100, 150, 200, 300)  # thousandths of the support
+SKINS = (50, 100, 125, 175, 200, 300)  # thousandths of the support
 SIDES = (22, 50, 100)
 LARGE_SIDE = 160
 LAW_HEADERS = ("dmp/kernel/lucy.hpp", "dmp/bond/harmonic.hpp")  # the slower one counts
@@ -116,7 +116,7 @@ def run_benchmarks(program, pattern, repetitions, least_seconds):
 
 def run_at_once(program, count):
     """Nanoseconds per particle and step of `count` programs of one thread each, the mean of them."""
-    benchmark = "whole_step/63/1/0"
+    benchmark = "whole_step/63/1"
     with ThreadPoolExecutor(count) as pool:
         found = pool.map(lambda _: run_benchmarks(program, f"{benchmark}/", 1, 1.0)[0][f"{benchmark}, ns/particle"], range(count))
     return {f"{count} programs at once, ns/particle": statistics.mean(found)}
@@ -157,9 +157,14 @@ def resident_per_particle(of):
     return growth.times(1.0 / (large ** 3 - small ** 3))
 
 
-def whole(of, side):
+def part(of, side, name, skin=0):
+    """Nanoseconds of a part of a step, from one building of lists to another."""
+    return of(f"parts_of_step/{side}/{skin}, {name} ns")
+
+
+def whole(of, side, skin=0):
     """A step as the sum of its parts."""
-    return of(f"parts_of_step/{side}, sweep ns") + of(f"parts_of_step/{side}, lists ns") + of(f"parts_of_step/{side}, rest ns")
+    return part(of, side, "sweep", skin) + part(of, side, "lists", skin) + part(of, side, "rest", skin)
 
 
 def bounds(of, compile_cost, has_yardstick):
@@ -175,18 +180,18 @@ def bounds(of, compile_cost, has_yardstick):
     rows += [Bound(f"pair sweep, {name.lower()}: composed over written by hand", time / by_hand[name], "<=", 1.05)
              for name, time in composed.items()]
     for side in SIDES[1:]:
-        sweep, lists = of(f"parts_of_step/{side}, sweep ns"), of(f"parts_of_step/{side}, lists ns")
+        sweep, lists = part(of, side, "sweep"), part(of, side, "lists")
         rows += [Bound(f"whole step over its sweep, {particles(side)} particles", whole(of, side) / sweep, "<=", 1.35),
                  Bound(f"list build per step over the sweep, {particles(side)} particles", lists / sweep, "<=", 0.15)]
     rows += [Bound(f"{threads} threads: whole step faster than with 1, {particles(63)} particles",
-                   of("whole_step/63/1/0, ns/particle") / of(f"whole_step/63/{threads}/0, ns/particle"), ">=", least)
+                   of("whole_step/63/1, ns/particle") / of(f"whole_step/63/{threads}, ns/particle"), ">=", least)
              for threads, least in zip(THREADS, (1.85, 3.5))]
     if has_yardstick:
         loop = of("yardstick, bond scalar, both sides")
         rows.append(Bound("bond sweep: faster than the yardstick's scalar loop", loop / of("bond_sweep_composed, ns/bond"), ">=", 2.0))
     rows.append(Bound("1.1 million bonds: whole step over the bond sweep", of("bond_step, ns/bond") / of("bond_sweep_composed, ns/bond"),
                       "<=", 1.3))
-    large, small = (of(f"whole_step/{side}/1/0, processor ns/particle") for side in (SIDES[2], SIDES[0]))
+    large, small = (of(f"whole_step/{side}/1, processor ns/particle") for side in (SIDES[2], SIDES[0]))
     rows += [Bound(f"time per particle-step, {particles(SIDES[2])} particles over {particles(SIDES[0])}", large / small, "<=", 1.25),
              Bound(f"memory per particle, resident, {particles(SIDES[2])} particles", resident_per_particle(of), "<=", 600.0, " B"),
              Bound("compile `dam_break` at -O2", Measured([compile_cost["examples/dam_break.cpp"][0]]), "<=", 10.0, " s"),
@@ -198,8 +203,8 @@ def bounds(of, compile_cost, has_yardstick):
 def threads(of):
     rows = []
     for count in THREADS:
-        alone = of("whole_step/63/1/0, ns/particle")
-        speedup = alone / of(f"whole_step/63/{count}/0, ns/particle")
+        alone = of("whole_step/63/1, ns/particle")
+        speedup = alone / of(f"whole_step/63/{count}, ns/particle")
         most = (alone / of(f"{count} programs at once, ns/particle")).times(count)
         rows.append([str(count), speedup.text(2), most.text(2), (speedup / most).text(2)])
     return table(["threads", "whole step faster than with 1", "work of as many programs of one thread at once", "share of it"], rows)
@@ -220,41 +225,44 @@ def sweeps(of, has_yardstick):
 
 def profile(of):
     rows = []
-    for part, name in (("sweep", "sweep over the pairs"), ("lists", "list build with sorting and ghosts, per step"),
-                       ("rest", "rest: integration, material laws, records")):
-        cells = [name]
+    for name, meaning in (("sweep", "sweep over the pairs"), ("lists", "list build with sorting and ghosts, per step"),
+                          ("rest", "rest: integration, material laws, records")):
+        cells = [meaning]
         for side in SIDES[1:]:
-            time = of(f"parts_of_step/{side}, {part} ns")
+            time = part(of, side, name)
             cells += [time.text(0), f"{(time / whole(of, side)).times(100.0).median:.0f} %"]
         rows.append(cells)
     total, builds = ["whole step"], ["steps between list builds"]
     for side in SIDES[1:]:
         total += [whole(of, side).text(0), "100 %"]
-        builds += [f"{1.0 / of(f'parts_of_step/{side}, list builds/step').median:.1f}", ""]
+        builds += [steps_between_builds(of, f"parts_of_step/{side}/0"), ""]
     header = [""] + [text for side in SIDES[1:] for text in (f"{particles(side)} particles, ns", "")]
     return table(header, [*rows, total, builds])
 
 
-STEP_HEADER = ["ns per particle-step", "over the first line", "steps between list builds", "bytes per particle"]
-
-
-def step_cells(of, benchmark, first):
-    time, builds, held = (of(f"{benchmark}, {counter}") for counter in ("processor ns/particle", "list builds/step", "bytes/particle"))
-    return [time.text(0), (time / of(f"{first}, processor ns/particle")).text(2), f"{1.0 / builds.median:.1f}", f"{held.median:.0f}"]
+def steps_between_builds(of, benchmark):
+    return f"{1.0 / of(f'{benchmark}, list builds/step').median:.1f}"
 
 
 def skins(of):
     rows = []
     for skin in (0, *SKINS):
-        name = f"{skin / 1000:.2f}" if skin else "as a scene chooses it"
-        rows.append([name, *step_cells(of, f"whole_step/50/1/{skin}", "whole_step/50/1/0")])
-    return table(["skin / support", *STEP_HEADER], rows)
+        time, benchmark = whole(of, 50, skin), f"parts_of_step/50/{skin}"
+        lists = part(of, 50, "lists", skin) / part(of, 50, "sweep", skin)
+        rows.append([f"{skin / 1000:g}" if skin else "as a scene chooses it", time.text(0), (time / whole(of, 50)).text(2), lists.text(2),
+                     steps_between_builds(of, benchmark), f"{of(f'{benchmark}, bytes/particle').median:.0f}"])
+    return table(["skin / support", "ns per particle-step", "over the first line", "list build / sweep", "steps between list builds",
+                  "bytes per particle"], rows)
 
 
 def growth(of, large):
-    sides = SIDES + ((LARGE_SIDE,) if large else ())
-    rows = [[particles(side), *step_cells(of, f"whole_step/{side}/1/0", f"whole_step/{SIDES[0]}/1/0")] for side in sides]
-    return table(["particles", *STEP_HEADER], rows)
+    rows, first = [], of(f"whole_step/{SIDES[0]}/1, processor ns/particle")
+    for side in SIDES + ((LARGE_SIDE,) if large else ()):
+        benchmark = f"whole_step/{side}/1"
+        time = of(f"{benchmark}, processor ns/particle")
+        rows.append([particles(side), time.text(0), (time / first).text(2), steps_between_builds(of, benchmark),
+                     f"{of(f'{benchmark}, bytes/particle').median:.0f}"])
+    return table(["particles", "ns per particle-step", "over the first line", "steps between list builds", "bytes per particle"], rows)
 
 
 def compile_table(compile_cost):
@@ -307,7 +315,7 @@ def main():
     start, rounds = time_of_others(), []
     for number in range(options.repeats):
         rounds.append(run_round(options))
-        step = rounds[-1]["whole_step/50/1/0, ns/particle"]
+        step = rounds[-1]["whole_step/50/1, ns/particle"]
         print(f"round {number + 1} of {options.repeats}: a step takes {step:.0f} ns per particle", file=sys.stderr)
     end = time_of_others()
     others = (end[0] - start[0]) / (end[1] - start[1])

@@ -78,7 +78,7 @@ std::vector<std::size_t> count_neighbours(const std::vector<double>& xyz, double
   for (std::size_t i = 0; i < xyz.size(); i += 3) positions.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
 
   dmp::neighbours::CellGrid<3> grid;
-  grid.build(positions, radius);  // width of the cells; half the radius is often faster
+  grid.build(positions, radius);  // width of the cells: the radius or somewhat less
   std::vector<std::size_t> count;
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < positions.size(); ++i) {

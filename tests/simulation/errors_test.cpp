@@ -100,7 +100,7 @@ TEST_CASE("scene: support radius against spacing and box, inverted and endless b
                        doctest::Contains("support radius (cut-off) of water and water must be >= their spacing 0.1 m, got 0.09"),
                        ParameterError);
   CHECK_THROWS_WITH_AS(pond({.support_radius = 1.0}).run(briefly),
-                       doctest::Contains("a periodic box must be longer than support radius and skin (1.2 m), got 1"), ParameterError);
+                       doctest::Contains("a periodic box must be longer than support radius and skin (1.15 m), got 1"), ParameterError);
   CHECK_THROWS_WITH_AS(pond({.upper = {-1.0, 1.0}}), doctest::Contains("geometry::Box: upper must be > lower in direction x"),
                        ParameterError);
   CHECK_THROWS_WITH_AS(pond({.upper = {not_a_number, 1.0}}), doctest::Contains("geometry::Box: upper must be > lower in direction x"),

@@ -36,6 +36,13 @@ struct Integer<4> {
 template <class Real>
 inline constexpr int native_width = detail::vector_bytes == 0 ? 1 : detail::vector_bytes / static_cast<int>(sizeof(Real));
 
+/// Floats of a pack for loops that select and compress rather than compute: AVX-512 has instructions for 16 lanes of that.
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+inline constexpr int selecting_width = 16;
+#else
+inline constexpr int selecting_width = native_width<float>;
+#endif
+
 /// One truth value per lane: what comparing two packs gives, and `select` takes.
 template <class Real, int Width>
 struct Mask {
@@ -58,6 +65,13 @@ struct Mask {
       float signs __attribute__((vector_size(32)));
       __builtin_memcpy(&signs, &raw, 32);
       return static_cast<unsigned>(__builtin_ia32_movmskps256(signs));
+    }
+#endif
+#if defined(__AVX512DQ__)
+    if constexpr (sizeof(Raw) == 64 && sizeof(Real) == 4) {
+      int lanes __attribute__((vector_size(64)));
+      __builtin_memcpy(&lanes, &raw, 64);
+      return static_cast<unsigned>(__builtin_ia32_cvtd2mask512(lanes));
     }
 #endif
     unsigned result = 0;
@@ -284,6 +298,17 @@ template <int Step, class Raw, int Width>
 /// Writes the numbers of `from` whose bit is set side by side to `to`, which has room for all of them.
 template <int Width, class Number>
 [[gnu::always_inline]] inline void compress(typename Pack<float, Width>::Rows from, unsigned bits, Number* to) noexcept {
+#if defined(__AVX512F__)
+  if constexpr (Width == 16) {
+    std::int32_t all __attribute__((vector_size(64)));
+    __builtin_memcpy(&all, &from, 64);
+    all = __builtin_ia32_compresssi512_mask(all, all, static_cast<unsigned short>(bits));
+    using Numbers __attribute__((vector_size(16 * sizeof(Number)))) = Number;
+    const Numbers numbers = __builtin_convertvector(all, Numbers);
+    __builtin_memcpy(to, &numbers, sizeof(numbers));
+    return;
+  }
+#endif
 #if defined(__AVX2__)
   if constexpr (Width == 8) {
     static constexpr auto lanes_of = [] {

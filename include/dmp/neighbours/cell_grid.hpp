@@ -31,25 +31,27 @@ struct Found {
 
 /// Particles sorted into equal cells, for finding all of them within a distance. Cells are stored row after row along the first direction,
 /// so that the candidates of one row of cells lie side by side and are tested in vector registers, in single precision: all that are closer
-/// than the radius are found, and perhaps some that are farther by less than `margin()`.
+/// than the radius are found, and perhaps some that are farther by less than `margin()`. Across that direction cells are sliced, so that
+/// few candidates lie beyond the ends of what is within reach of a row: long rows, of few candidates in vain.
 template <int Dim>
 class CellGrid {
  public:
-  /// Sorts `positions` into cells of at least `cell_width` [m]; wider where that would make many more cells than particles.
+  /// Sorts `positions` into cells of at least `cell_width` [m], and these into slices; wider where that would make many more slices than
+  /// particles.
   void build(std::span<const Vector<Dim>> positions, double cell_width) { build(Positions<Dim>{positions}, cell_width); }
   /// The same for particles and their ghosts.
   void build(const Positions<Dim>& position, double cell_width) {
     const std::size_t count = position.size();
-    cells_ = Cells<Dim>(count, position, cell_width);
-    sort_.sort(count, cells_.total(), [&](std::size_t k) { return cells_.index(position(k)); });
-    const std::span<const std::uint32_t> rows = sort_.rows();
+    cells_ = Cells<Dim>(count, position, cell_width, static_cast<double>(count) + 16.0);
     margin_ = 0.0;
     for (std::size_t d = 0; d < Dim; ++d) margin_ = std::max(margin_, 4e-7 * cells_.width[static_cast<int>(d)] * cells_.count[d]);
+    const bool far_away = !(margin_ <= 1e-2 * cell_width);  // some particle: single precision no longer tells the others apart
+    if (far_away) margin_ = 0.0;
+    else cells_.divide(0, slices);
+    sort_.sort(count, cells_.total(), [&](std::size_t k) { return cells_.index(position(k)); });
+    const std::span<const std::uint32_t> rows = sort_.rows();
     exact_.clear();
-    if (!(margin_ <= 1e-2 * cell_width)) {  // some particle has gone far away: single precision no longer tells the others apart
-      margin_ = 0.0;
-      for (std::size_t k = 0; k < count; ++k) exact_.push_back(position(k));
-    }
+    for (std::size_t k = 0; far_away && k < count; ++k) exact_.push_back(position(k));
     for (auto& x : coordinate_) resize_with_margin(x, count + (packs_at_once + 1) * Lanes::width);
     for_each_range(Ranges(count), [&](std::size_t, std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k) {
@@ -116,7 +118,7 @@ class CellGrid {
   }
 
  private:
-  using Lanes = Pack<float, native_width<float>>;
+  using Lanes = Pack<float, selecting_width>;
 
   /// Not more than the square of the distance of x from whatever lies in a cell along d.
   [[nodiscard]] double aside_squared(double x, int cell, int d) const noexcept {
@@ -220,7 +222,7 @@ class CellGrid {
     }
   }
 
-  static constexpr int packs_at_once = 2;
+  static constexpr int packs_at_once = Lanes::width < 16 ? 2 : 1, slices = 4;
 
   Cells<Dim> cells_;
   CountingSort sort_;

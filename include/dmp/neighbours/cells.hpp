@@ -94,6 +94,13 @@ struct Cells {
     }
   }
 
+  /// Cuts every cell into `parts` slices across direction d.
+  void divide(int d, int parts) noexcept {
+    count[static_cast<std::size_t>(d)] *= parts;
+    width[d] /= parts;
+    inverse_width[d] *= parts;
+  }
+
   [[nodiscard]] std::size_t total() const noexcept {
     std::size_t result = 1;
     for (const int cells : count) result *= static_cast<std::size_t>(cells);

@@ -156,7 +156,7 @@ class PairList {
       return once.capacity() * sizeof(std::uint16_t) + others.capacity() * sizeof(std::uint32_t);
     }
   };
-  using Lanes = Pack<float, native_width<float>>;
+  using Lanes = Pack<float, selecting_width>;
   struct alignas(64) FoundOfThread {  // no two threads share a cache line
     Found found;
     AlignedVector<std::uint16_t> once;  // of a block

@@ -32,9 +32,7 @@ class SpatialOrder {
     int places_per_cell = 1, number_of_blocks = 1;
     for (std::size_t d = 0; d < Dim; ++d) {
       const int along = static_cast<int>(d);
-      divided.count[d] *= parts;
-      divided.width[along] /= parts;
-      divided.inverse_width[along] *= parts;
+      divided.divide(along, parts);
       first[d] = cells.along(bounds.lower[along], along);
       count[d] = cells.along(bounds.upper[along], along) + 1 - first[d];
       total *= count[d];

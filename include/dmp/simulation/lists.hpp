@@ -33,7 +33,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
         shortest_cutoff_ = std::min(shortest_cutoff_, active.item.cutoff());
       }
     });
-    skin_ = 0.2 * longest_cutoff_;  // least time of a step, see docs/performance.md
+    skin_ = 0.15 * longest_cutoff_;  // least time of a step, see docs/performance.md
   }
 
   [[nodiscard]] double skin() const noexcept { return skin_; }
@@ -177,7 +177,7 @@ class Lists : public Model<Dim, KeepsRates, Precision, Item...> {
           throw ParameterError("scene: a periodic box must be longer than support radius and skin (" + to_text(reach) + " m), got " +
                                to_text(period));
       g.ghosts.build(g.positions(), this->box_, reach);
-      g.grid.build({g.positions(), g.ghosts.owner, g.ghosts.shift}, 0.5 * reach);
+      g.grid.build({g.positions(), g.ghosts.owner, g.ghosts.shift}, 0.8 * reach);
     }
   }
 

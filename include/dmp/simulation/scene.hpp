@@ -102,7 +102,7 @@ class Scene {
     return count;
   }
 
-  /// Margin [m] by which neighbour lists reach beyond the cut-off, so that they last several steps; 0.2 of the largest cut-off unless set.
+  /// Margin [m] by which neighbour lists reach beyond the cut-off, so that they last several steps; 0.15 of the largest cut-off unless set.
   Scene& set_skin(double skin) {
     require_not_negative("scene: skin", skin, "m");
     engine_.set_skin(skin);
