@@ -42,8 +42,8 @@ class Case:
 TINY_DAM = {"n": 8, "w": 8}
 CASES = [
     Case("dam break 3D, 31k", "dam3d", {"n": 24, "w": 32}, 300, 100, TINY_DAM),
-    Case("dam break 3D, 252k", "dam3d", {"n": 56, "w": 63}, 80, 20, TINY_DAM),
-    Case("dam break 3D, 1M", "dam3d", {"n": 90, "w": 106}, 30, 10, TINY_DAM),
+    Case("dam break 3D, 252k", "dam3d", {"n": 56, "w": 63}, 160, 20, TINY_DAM),
+    Case("dam break 3D, 1M", "dam3d", {"n": 90, "w": 106}, 90, 10, TINY_DAM),
     Case("Taylor-Green 2D, 100k", "tg2d", {"n": 316}, 150, 50, {"n": 16}),
     Case("springs 3D, 97k", "springs3d", {"n": 46}, 200, 50, {"n": 6}),
     Case("membrane 2D", "membrane", {}, 10000, 1000, None),
